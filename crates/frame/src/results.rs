@@ -1,0 +1,91 @@
+//! Results that are not images: per-vertex answers, triangles, work.
+
+use glam::{DVec2, DVec3, Vec2};
+use serde::{Deserialize, Serialize};
+
+/// A search's answer for one (object vertex, mirror) pair.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VertexResult {
+    /// Id of the vertex' object.
+    pub object: u32,
+    /// Index into the object's unique positions.
+    pub vertex: u32,
+    /// Id of the mirror searched.
+    pub mirror: u32,
+    /// What the search says.
+    pub state: VertexState,
+    /// Found reflection point in image coordinates (pixel centres at +½); meaningless if
+    /// `state` is `Failed`.
+    pub at: Vec2,
+    /// Moves made by an iterative search.
+    pub steps: u32,
+    /// Uses of the error function.
+    pub evaluations: u32,
+    /// Nodes tested by a hierarchical search.
+    pub node_tests: u32,
+    /// A hierarchy left a gap here; `None` for searches that have none.
+    pub hole: Option<bool>,
+    /// The enlargement repair was used; `None` for searches that have none.
+    pub enlarged: Option<bool>,
+}
+
+/// What a search says of a vertex.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum VertexState {
+    /// A point was found and the vertex is in front of the mirror there.
+    Found,
+    /// A point was found where the vertex is behind the mirror's tangent plane (`pv·N < 0`).
+    Hidden,
+    /// The search reports that it has no answer.
+    Failed,
+}
+
+/// The exact answer for one (object vertex, mirror) pair; occlusion is not considered.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TrueVertex {
+    /// Which region the vertex lies in.
+    pub class: VertexClass,
+    /// All reflection points: world position and image coordinates (`None` behind the eye's
+    /// plane). Empty unless `class` is `Reflected`.
+    pub points: Vec<(DVec3, Option<DVec2>)>,
+}
+
+/// Region of space a vertex lies in, seen from the eye (Estalella et al. 2005, §6.1).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum VertexClass {
+    /// Has at least one reflection point.
+    Reflected,
+    /// Behind the mirror's silhouette cone: no point sees both eye and vertex.
+    Hidden,
+    /// In front, but the reflection would lie beyond an open mirror's rim.
+    Unreflected,
+}
+
+/// Triangles of one frame, all mirrors together.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Triangles {
+    /// Object triangles × mirrors, before refinement.
+    #[serde(rename = "in")]
+    pub input: u64,
+    /// After refinement, before discard.
+    pub drawn: u64,
+    /// Of `drawn`, how many stopped at each subdivision level (0 = not split).
+    pub by_level: Vec<u64>,
+    /// Still above the threshold at the level limit.
+    pub unfinished: u64,
+}
+
+/// Work counters, device-independent: means per searched vertex or per mirror pixel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Work {
+    /// Uses of the error function.
+    pub evaluations: f64,
+    /// Moves of an iterative search.
+    pub steps: f64,
+    /// Hierarchy nodes tested.
+    pub node_tests: f64,
+    /// Map samples along traced rays.
+    pub samples: f64,
+    /// Steps skipped by an acceleration structure.
+    pub skips: f64,
+}

@@ -1,0 +1,96 @@
+//! What is looked at: camera, background, objects and mirrors.
+//!
+//! A [`Scene`] is complete and in world space: meshes are loaded, transforms applied, identical
+//! positions merged, names and ids settled. It renders nothing; both renderers (the reference and
+//! the GPU techniques) read it and share nothing else.
+//!
+//! Spaces and units: right-handed, +y up, metres if anything; angles in degrees in files and in
+//! radians in code unless a name says `_deg`; colours linear RGB.
+
+pub mod camera;
+pub mod mesh;
+pub mod mirror;
+
+pub use camera::{Camera, Fov, View};
+pub use mesh::{Material, Mesh, Paint, Texture};
+pub use mirror::{Mirror, Shape, SurfaceHit};
+
+use glam::Vec3;
+
+/// Everything a picture shows, in world space.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// The built-in name, or the file's stem.
+    pub name: String,
+    /// What the scene is for, in a sentence.
+    pub why: String,
+    /// The eye.
+    pub camera: Camera,
+    /// What rays see that hit nothing.
+    pub background: Background,
+    /// The surfaces that are not mirrors, in file order; object `i` has id `1 + i`.
+    pub objects: Vec<Object>,
+    /// The mirrors, in file order; mirror `i` has id `1 + objects.len() + i`.
+    pub mirrors: Vec<Mirror>,
+    /// SHA-256 (hex) of all that influences a picture: geometry, colours, camera.
+    pub hash: String,
+}
+
+impl Scene {
+    /// Id of object `index` in every id layer. Id 0 is the background.
+    pub fn object_id(&self, index: usize) -> u32 {
+        1 + index as u32
+    }
+
+    /// Id of mirror `index` in every id layer.
+    pub fn mirror_id(&self, index: usize) -> u32 {
+        (1 + self.objects.len() + index) as u32
+    }
+
+    /// `(id, name, is_mirror)` of everything, objects first, ids ascending from 1.
+    pub fn ids(&self) -> Vec<(u32, String, bool)> {
+        let objects = self.objects.iter().map(|object| (object.name.clone(), false));
+        let mirrors = self.mirrors.iter().map(|mirror| (mirror.name.clone(), true));
+        objects
+            .chain(mirrors)
+            .zip(1..)
+            .map(|((name, is_mirror), id)| (id, name, is_mirror))
+            .collect()
+    }
+
+    /// Unique vertex positions of all objects: what a search has to find reflections of.
+    pub fn vertex_count(&self) -> usize {
+        self.objects.iter().map(|object| object.mesh.positions.len()).sum()
+    }
+
+    /// Triangles of all objects, mirrors not counted.
+    pub fn triangle_count(&self) -> usize {
+        self.objects.iter().map(|object| object.mesh.triangles.len()).sum()
+    }
+}
+
+/// A named surface that is not a mirror. Two-sided and unlit: it shows its own colour.
+#[derive(Clone, Debug)]
+pub struct Object {
+    /// Unique within the scene.
+    pub name: String,
+    /// World-space geometry; may have vertices and no triangles (`shape = "points"`).
+    pub mesh: Mesh,
+}
+
+/// The colour of a ray that hits nothing, by its direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Background {
+    /// One linear RGB colour.
+    Color(Vec3),
+    /// Blended by the direction's height `y`: `horizon` at 0, `zenith` at +1, `nadir` at −1,
+    /// linear in `y` between (unit directions).
+    Gradient {
+        /// Colour straight up.
+        zenith: Vec3,
+        /// Colour at eye level.
+        horizon: Vec3,
+        /// Colour straight down.
+        nadir: Vec3,
+    },
+}

@@ -1,0 +1,73 @@
+//! Mirrors: exact surfaces in f64, and the triangle proxies they are drawn from.
+
+use glam::{DMat3, DVec2, DVec3};
+
+use crate::mesh::Mesh;
+
+/// A named mirror.
+#[derive(Clone, Debug)]
+pub struct Mirror {
+    /// Unique within the scene.
+    pub name: String,
+    /// The reflecting surface, world space.
+    pub shape: Shape,
+    /// Segments around the proxy, half as many rings. Unused for meshes.
+    pub tessellation: u32,
+}
+
+/// A reflecting surface in world space. Each has a reflecting side; the other is opaque black.
+#[derive(Clone, Debug)]
+pub enum Shape {
+    /// Reflects on its outside.
+    Sphere {
+        /// Centre.
+        center: DVec3,
+        /// Radius, positive.
+        radius: f64,
+    },
+    /// Reflects on its outside: the points `center + rotation · p` with `|p / radii| = 1`.
+    Ellipsoid {
+        /// Centre.
+        center: DVec3,
+        /// Half axes before the rotation, positive.
+        radii: DVec3,
+        /// World from ellipsoid axes.
+        rotation: DMat3,
+    },
+    /// A rectangle that reflects on the side its normal points to.
+    Plane {
+        /// Centre of the rectangle.
+        center: DVec3,
+        /// Unit normal of the reflecting side.
+        normal: DVec3,
+        /// Unit, in the plane: the direction of `size.y`.
+        up: DVec3,
+        /// Full width (along `up × normal`) and height (along `up`).
+        size: DVec2,
+    },
+    /// A spherical cap whose inside reflects: the points of a sphere within `half_angle` of
+    /// `axis`, seen from the centre.
+    Bowl {
+        /// Centre of the sphere.
+        center: DVec3,
+        /// Radius of the sphere.
+        radius: f64,
+        /// Unit, from the sphere's centre to the middle of the cap.
+        axis: DVec3,
+        /// Radians, in (0, π).
+        half_angle: f64,
+    },
+    /// Triangles with shading normals (never empty), reflecting where the normals point.
+    Mesh(Mesh),
+}
+
+/// Where a ray meets an analytic mirror.
+#[derive(Clone, Copy, Debug)]
+pub struct SurfaceHit {
+    /// Distance along the (unit) ray.
+    pub t: f64,
+    /// World-space point.
+    pub position: DVec3,
+    /// Unit normal of the reflecting side.
+    pub normal: DVec3,
+}

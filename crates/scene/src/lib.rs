@@ -7,11 +7,18 @@
 //! Spaces and units: right-handed, +y up, metres if anything; angles in degrees in files and in
 //! radians in code unless a name says `_deg`; colours linear RGB.
 
+pub mod builtin;
 pub mod camera;
+mod error;
+mod load;
 pub mod mesh;
 pub mod mirror;
+mod surface;
+mod tessellate;
 
 pub use camera::{Camera, Fov, View};
+pub use error::SceneError;
+pub use load::{LoadOptions, open};
 pub use mesh::{Material, Mesh, Paint, Texture};
 pub use mirror::{Mirror, Shape, SurfaceHit};
 
@@ -37,6 +44,11 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Loads a built-in scene by its name, or a scene file by its path; the same as [`open`].
+    pub fn load(name_or_path: &str, options: &LoadOptions) -> Result<Self, SceneError> {
+        open(name_or_path, options)
+    }
+
     /// Id of object `index` in every id layer. Id 0 is the background.
     pub fn object_id(&self, index: usize) -> u32 {
         1 + index as u32

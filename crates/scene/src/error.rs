@@ -1,0 +1,56 @@
+//! What can be wrong with a scene, as one clear message.
+
+/// Why a scene could not be loaded. `Display` is one line that names file, line and key.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum SceneError {
+    /// Something is wrong at a line of a scene, OBJ or MTL file.
+    #[error("{file}:{line}: {message}")]
+    AtLine {
+        /// As given by the user, or `NAME.toml` of a built-in scene.
+        file: String,
+        /// From 1.
+        line: usize,
+        /// What is wrong, naming the key.
+        message: String,
+    },
+    /// A file cannot be used as a whole.
+    #[error("{file}: {message}")]
+    File {
+        /// Path of the file.
+        file: String,
+        /// What is wrong.
+        message: String,
+    },
+    /// A model that the scene asks for is neither beside it nor in the models folder.
+    #[error("{file}:{line}: {owner}: no file `{model}` {searched}")]
+    MissingModel {
+        /// Scene file.
+        file: String,
+        /// Line of the `mesh` key, from 1.
+        line: usize,
+        /// The object or mirror that asks, as in other messages.
+        owner: String,
+        /// The value of `mesh`.
+        model: String,
+        /// Where it was looked for.
+        searched: String,
+    },
+    /// Neither a built-in scene nor a file.
+    #[error("no built-in scene and no file `{name}`{suggestion}")]
+    Unknown {
+        /// As given by the user.
+        name: String,
+        /// ` (did you mean …?)`, or empty.
+        suggestion: String,
+    },
+}
+
+/// ` (did you mean `x`?)` with the most similar of `known`, or nothing if none is close.
+pub(crate) fn suggest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    known
+        .into_iter()
+        .map(|candidate| (strsim::jaro_winkler(word, candidate), candidate))
+        .filter(|(similarity, _)| *similarity >= 0.75)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map_or_else(String::new, |(_, candidate)| format!(" (did you mean `{candidate}`?)"))
+}

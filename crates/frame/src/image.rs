@@ -12,7 +12,11 @@ impl<T: Clone> Image<T> {
     /// An image filled with one value.
     pub fn filled(size: [u32; 2], value: T) -> Self {
         let data = vec![value; size[0] as usize * size[1] as usize];
-        Self { width: size[0], height: size[1], data }
+        Self {
+            width: size[0],
+            height: size[1],
+            data,
+        }
     }
 }
 
@@ -22,8 +26,16 @@ impl<T> Image<T> {
     /// # Panics
     /// If `data` does not hold `size[0] * size[1]` pixels: a bug in the caller.
     pub fn from_vec(size: [u32; 2], data: Vec<T>) -> Self {
-        assert_eq!(data.len(), size[0] as usize * size[1] as usize, "pixels of {size:?}");
-        Self { width: size[0], height: size[1], data }
+        assert_eq!(
+            data.len(),
+            size[0] as usize * size[1] as usize,
+            "pixels of {size:?}"
+        );
+        Self {
+            width: size[0],
+            height: size[1],
+            data,
+        }
     }
 
     /// Width and height in pixels.
@@ -53,6 +65,10 @@ impl<T> Image<T> {
 
     /// An image of the same size with `f` applied to every pixel.
     pub fn map<U>(&self, f: impl FnMut(&T) -> U) -> Image<U> {
-        Image { width: self.width, height: self.height, data: self.data.iter().map(f).collect() }
+        Image {
+            width: self.width,
+            height: self.height,
+            data: self.data.iter().map(f).collect(),
+        }
     }
 }

@@ -4,10 +4,17 @@
 //! Image coordinates: x right, y down, row 0 on top; pixel `(i, j)` has its centre at
 //! `(i + ½, j + ½)`. World-space positions, linear RGB, everything `f32`.
 
+mod atomic;
+mod error;
+pub mod exr;
 pub mod image;
+mod names;
+pub mod png;
 pub mod results;
 
+pub use error::FrameError;
 pub use image::Image;
+pub use png::{write_png, write_png_rgb8};
 pub use results::{Triangles, TrueVertex, VertexClass, VertexResult, VertexState, Work};
 
 use glam::Vec3;

@@ -1,1 +1,57 @@
-//! placeholder
+//! Frames in, error maps and statistics out: pure functions.
+//!
+//! [`compare`] judges a technique's picture against the reference's, [`vertex_report`] its search,
+//! [`temporal()`] its steadiness; [`stats`] summarizes samples; [`maps`] and [`mod@flip`] give
+//! per-pixel errors. Every mean divides by the number of pixels in its mask and accumulates in
+//! `f64`; an empty mask gives `None`.
+
+pub mod compare;
+pub mod coverage;
+pub mod flip;
+pub mod maps;
+pub mod record;
+pub mod stats;
+pub mod temporal;
+pub mod vertices;
+
+pub use compare::{CompareOptions, compare, compare_color, compare_with};
+pub use maps::{
+    Colormap, CoverageClass, MapKind, color_bar, colorize, colorize_coverage, error_map,
+};
+pub use record::{ColorError, Comparison, Coverage, Mismatch, NonFinite, Region, Regions};
+pub use stats::{PairedDifference, Summary, Timing, paired};
+pub use temporal::{Jitter, Temporal, temporal};
+pub use vertices::{Discard, OffsetShare, VertexReport, mean_work, vertex_report};
+
+use thiserror::Error;
+
+/// Why two results cannot be compared.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum MetricsError {
+    /// Pictures of different sizes.
+    #[error("{what} is {test:?} pixels where the reference is {reference:?}")]
+    Size {
+        /// Which layer or mask.
+        what: &'static str,
+        /// Its size in the reference.
+        reference: [u32; 2],
+        /// Its size here.
+        test: [u32; 2],
+    },
+    /// A layer that the metric needs is not there.
+    #[error("the {which} has no `{layer}` layer")]
+    MissingLayer {
+        /// `reference` or `technique`.
+        which: &'static str,
+        /// The layer's name.
+        layer: &'static str,
+    },
+    /// Results and truth that do not belong to the same search.
+    #[error("results for {results} searched vertices, truth for {truth}")]
+    Length {
+        /// Groups of results.
+        results: usize,
+        /// Entries of the truth.
+        truth: usize,
+    },
+}

@@ -1,0 +1,1 @@
+//! Which mirror pixels show a surface.

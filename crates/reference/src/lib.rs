@@ -1,1 +1,26 @@
-//! placeholder
+//! The CPU truth that every technique is judged against.
+//!
+//! - [`Tracer`]: a ray tracer. Triangles lie in a bounding volume hierarchy (obvhs) and are hit
+//!   by a watertight test in f64 ([`bvh`]); analytic mirrors are met exactly, in f64.
+//!   [`Tracer::render`] fills all layers of a [`catoptric_frame::Frame`]; single rays are
+//!   answered in f64 by [`Tracer::trace`] and [`Tracer::reflect_pixel`].
+//! - [`reflection_points`]: all points of a mirror at which an eye sees a vertex reflected,
+//!   without a search: in closed form or as the minimum of a convex function ([`points`]).
+//!
+//! Nothing here knows the GPU techniques, and they know nothing of this crate: a mistake shared
+//! by both would cancel itself out.
+//!
+//! Spaces and units: world space, right-handed, +y up; distances along unit rays; linear RGB;
+//! image coordinates with pixel centres at +½.
+
+pub mod bvh;
+pub mod error;
+mod paint;
+pub mod points;
+pub mod render;
+pub mod tracer;
+
+pub use error::{NotAvailable, ReferenceError};
+pub use points::{Solutions, in_view, points_in_view, reflection_points, true_vertices};
+pub use render::{PixelTrace, Reflection, RenderOptions, Truth};
+pub use tracer::{Hit, Surface, Tracer};

@@ -1,0 +1,3 @@
+//! Benchmarks of the reference: hierarchy, rays, exact reflection points.
+
+fn main() {}

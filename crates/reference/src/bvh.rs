@@ -1,0 +1,1 @@
+//! Triangles in a hierarchy.

@@ -1,14 +1,38 @@
-//! Single rays through a scene.
+//! Single rays through a scene: the nearest object or mirror, exactly.
+//!
+//! Objects are two-sided triangles; analytic mirrors are met exactly ([`Shape::intersect`]);
+//! mesh mirrors are triangles with interpolated normals. Where a mirror coincides with an
+//! object, the mirror is met.
+//!
+//! A ray that leaves a mirror must not meet it again where it starts. From a mesh, the ray
+//! starts [`NUDGE`] × the scene's extent off the triangle, on its reflecting side, and so moves
+//! away from it and, where the mesh is convex, from its neighbours. A sphere, an ellipsoid and a
+//! plane are not met again by a ray that leaves them, so they are left out. A bowl is met again
+//! only beyond [`BOWL_NUDGE`] × its extent.
 
-use catoptric_scene::Scene;
+use catoptric_scene::{Mesh, Scene, Shape};
 use glam::{DVec3, Vec3};
 
+use crate::bvh::{TriangleBvh, TriangleHit};
 use crate::error::ReferenceError;
+use crate::paint;
+
+/// Share of the scene's extent by which a reflected ray stays clear of its start: several
+/// thousand rounding steps of f64, and far below what f32 resolves.
+const NUDGE: f64 = 1e-12;
+
+/// Share of a bowl's extent within which a ray leaving it does not meet it again: rounding moves
+/// the start along a ray that grazes the bowl far more than across it.
+const BOWL_NUDGE: f64 = 1e-9;
 
 /// A scene made ready for rays.
 #[derive(Debug)]
 pub struct Tracer {
     scene: Scene,
+    objects: Triangles,
+    mesh_mirrors: Triangles,
+    /// Largest distance of anything from the origin.
+    extent: f64,
 }
 
 /// Where a ray meets a surface.
@@ -51,10 +75,48 @@ pub enum Surface {
     },
 }
 
+/// Triangles of several meshes in one hierarchy.
+#[derive(Debug)]
+struct Triangles {
+    bvh: TriangleBvh,
+    /// Mesh and triangle of each triangle in the hierarchy.
+    owners: Vec<(u32, u32)>,
+}
+
+/// A ray and what it may meet.
+struct Start {
+    origin: DVec3,
+    t_min: f64,
+    mirrors: bool,
+    /// The analytic mirror that is being left.
+    leaving: Option<usize>,
+}
+
 impl Tracer {
     /// Checks the scene and builds the hierarchies.
     pub fn new(scene: &Scene) -> Result<Self, ReferenceError> {
-        Ok(Self { scene: scene.clone() })
+        for object in &scene.objects {
+            check(&object.name, &object.mesh)?;
+            check_paint(&object.name, &object.mesh)?;
+        }
+        for mirror in &scene.mirrors {
+            if let Shape::Mesh(mesh) = &mirror.shape {
+                check(&mirror.name, mesh)?;
+                check_count(&mirror.name, "normals", mesh.normals.len(), mesh.triangles.len())?;
+            }
+        }
+        let objects = Triangles::new(scene.objects.iter().map(|object| Some(&object.mesh)));
+        let mesh_mirrors = Triangles::new(scene.mirrors.iter().map(|mirror| match &mirror.shape {
+            Shape::Mesh(mesh) => Some(mesh),
+            _ => None,
+        }));
+        let object_extents = scene.objects.iter().filter_map(|object| object.mesh.bounds());
+        let mirror_extents = scene.mirrors.iter().map(|mirror| reach(mirror.shape.bounds()));
+        let extent = object_extents
+            .map(|(low, high)| reach((low.as_dvec3(), high.as_dvec3())))
+            .chain(mirror_extents)
+            .fold(0.0, f64::max);
+        Ok(Self { scene: scene.clone(), objects, mesh_mirrors, extent })
     }
 
     /// The scene traced.
@@ -64,21 +126,213 @@ impl Tracer {
 
     /// Nearest object or mirror along the ray (`dir` of unit length).
     pub fn trace(&self, origin: DVec3, dir: DVec3) -> Option<Hit> {
-        todo!("{origin} {dir}")
+        self.nearest(&Start { origin, t_min: 0.0, mirrors: true, leaving: None }, dir)
     }
 
-    /// Nearest object along the ray; mirrors are not seen.
+    /// Nearest object along the ray (`dir` of unit length); mirrors are not seen.
     pub fn trace_objects(&self, origin: DVec3, dir: DVec3) -> Option<Hit> {
-        todo!("{origin} {dir}")
+        self.nearest(&Start { origin, t_min: 0.0, mirrors: false, leaving: None }, dir)
+    }
+
+    /// What a ray in direction `dir` meets that leaves a mirror at `from`: objects, and mirrors
+    /// if asked for.
+    pub(crate) fn trace_reflected(&self, from: &Hit, dir: DVec3, mirrors: bool) -> Option<Hit> {
+        let nudge = self.extent * NUDGE;
+        let start = match from.surface {
+            Surface::Mirror { index, .. } if self.scene.mirrors[index].shape.is_analytic() => {
+                Start { origin: from.position, t_min: nudge, mirrors, leaving: Some(index) }
+            }
+            _ => Start {
+                origin: from.position + nudge * from.geometric,
+                t_min: 0.0,
+                mirrors,
+                leaving: None,
+            },
+        };
+        self.nearest(&start, dir)
     }
 
     /// Colour of an object's surface at a hit; black for mirrors.
     pub fn color(&self, hit: &Hit) -> Vec3 {
-        todo!("{hit:?}")
+        match hit.surface {
+            Surface::Object { index, triangle, barycentric } => {
+                paint::surface(&self.scene.objects[index].mesh, triangle, barycentric)
+            }
+            Surface::Mirror { .. } => Vec3::ZERO,
+        }
     }
 
-    /// Colour of a ray that meets nothing.
+    /// Colour of a ray in direction `dir` (of unit length) that meets nothing.
     pub fn background(&self, dir: DVec3) -> Vec3 {
-        todo!("{dir}")
+        paint::background(&self.scene.background, dir)
     }
+
+    fn nearest(&self, start: &Start, dir: DVec3) -> Option<Hit> {
+        let object = self.objects.bvh.intersect(start.origin, dir, start.t_min, f64::INFINITY);
+        if !start.mirrors {
+            return object.map(|hit| self.object_hit(&hit, dir));
+        }
+        // A mirror as far away as an object wins.
+        let t_max = object.map_or(f64::INFINITY, |hit| hit.t.next_up());
+        let mesh = self.mesh_mirrors.bvh.intersect(start.origin, dir, start.t_min, t_max);
+        let mut analytic: Option<Hit> = None;
+        for (index, mirror) in self.scene.mirrors.iter().enumerate() {
+            let t_min = match (&mirror.shape, start.leaving == Some(index)) {
+                (Shape::Mesh(_), _) => continue,
+                (shape, true) if shape.is_convex() => continue,
+                (shape, true) => start.t_min.max(BOWL_NUDGE * reach(shape.bounds())),
+                (_, false) => start.t_min,
+            };
+            let limit = analytic.map(|hit| hit.t).or(mesh.map(|hit| hit.t)).unwrap_or(t_max);
+            let Some(hit) = mirror.shape.intersect(start.origin, dir, t_min) else { continue };
+            if hit.t < limit {
+                let front = dir.dot(hit.normal) < 0.0;
+                analytic = Some(Hit {
+                    id: self.scene.mirror_id(index),
+                    t: hit.t,
+                    position: hit.position,
+                    normal: hit.normal,
+                    geometric: hit.normal,
+                    surface: Surface::Mirror { index, front },
+                });
+            }
+        }
+        analytic
+            .or_else(|| mesh.map(|hit| self.mesh_mirror_hit(&hit, dir)))
+            .or_else(|| object.map(|hit| self.object_hit(&hit, dir)))
+    }
+
+    fn object_hit(&self, hit: &TriangleHit, dir: DVec3) -> Hit {
+        let (index, triangle) = self.objects.owner(hit);
+        let corners = corners(&self.scene.objects[index].mesh, triangle);
+        let facing = geometric_normal(&corners);
+        let normal = if facing.dot(dir) > 0.0 { -facing } else { facing };
+        Hit {
+            id: self.scene.object_id(index),
+            t: hit.t,
+            position: mix(&corners, hit.barycentric),
+            normal,
+            geometric: normal,
+            surface: Surface::Object { index, triangle, barycentric: hit.barycentric },
+        }
+    }
+
+    fn mesh_mirror_hit(&self, hit: &TriangleHit, dir: DVec3) -> Hit {
+        let (index, triangle) = self.mesh_mirrors.owner(hit);
+        let Shape::Mesh(mesh) = &self.scene.mirrors[index].shape else {
+            unreachable!("only meshes are in this hierarchy");
+        };
+        let corners = corners(mesh, triangle);
+        let facing = geometric_normal(&corners);
+        let shading = mix(&mesh.normals[triangle].map(Vec3::as_dvec3), hit.barycentric);
+        let normal = shading.try_normalize().unwrap_or(facing);
+        let geometric = if facing.dot(normal) < 0.0 { -facing } else { facing };
+        Hit {
+            id: self.scene.mirror_id(index),
+            t: hit.t,
+            position: mix(&corners, hit.barycentric),
+            normal,
+            geometric,
+            surface: Surface::Mirror { index, front: geometric.dot(dir) < 0.0 },
+        }
+    }
+}
+
+impl Triangles {
+    /// Triangles without an area are left out: no ray can meet them.
+    fn new<'a>(meshes: impl Iterator<Item = Option<&'a Mesh>>) -> Self {
+        let mut all = Vec::new();
+        let mut owners = Vec::new();
+        for (mesh, index) in meshes.zip(0..) {
+            let Some(mesh) = mesh else { continue };
+            for triangle in 0..mesh.triangles.len() {
+                let corners = corners(mesh, triangle);
+                let [a, b, c] = corners;
+                if (b - a).cross(c - a) != DVec3::ZERO {
+                    all.push(corners);
+                    owners.push((index, triangle as u32));
+                }
+            }
+        }
+        Self { bvh: TriangleBvh::new(&all), owners }
+    }
+
+    fn owner(&self, hit: &TriangleHit) -> (usize, usize) {
+        let (mesh, triangle) = self.owners[hit.triangle as usize];
+        (mesh as usize, triangle as usize)
+    }
+}
+
+fn corners(mesh: &Mesh, triangle: usize) -> [DVec3; 3] {
+    mesh.triangles[triangle].map(|index| mesh.positions[index as usize].as_dvec3())
+}
+
+fn geometric_normal([a, b, c]: &[DVec3; 3]) -> DVec3 {
+    (b - a).cross(c - a).normalize_or_zero()
+}
+
+fn mix([a, b, c]: &[DVec3; 3], weights: DVec3) -> DVec3 {
+    weights.x * a + weights.y * b + weights.z * c
+}
+
+/// Largest distance from the origin to a point of a box.
+fn reach((low, high): (DVec3, DVec3)) -> f64 {
+    low.abs().max(high.abs()).length()
+}
+
+fn check(surface: &str, mesh: &Mesh) -> Result<(), ReferenceError> {
+    if let Some(index) = mesh.positions.iter().position(|position| !position.is_finite()) {
+        return Err(ReferenceError::NotFinite { surface: surface.to_owned(), index });
+    }
+    for (triangle, corners) in mesh.triangles.iter().enumerate() {
+        for index in *corners {
+            check_index(surface, triangle, "position", index, mesh.positions.len())?;
+        }
+    }
+    for (what, found) in [("normals", mesh.normals.len()), ("texture coordinates", mesh.uvs.len())] {
+        if found != 0 {
+            check_count(surface, what, found, mesh.triangles.len())?;
+        }
+    }
+    Ok(())
+}
+
+fn check_paint(surface: &str, mesh: &Mesh) -> Result<(), ReferenceError> {
+    let triangles = mesh.triangles.len();
+    check_count(surface, "materials", mesh.material.len(), triangles)?;
+    for (triangle, index) in mesh.material.iter().enumerate() {
+        check_index(surface, triangle, "material", *index, mesh.materials.len())?;
+    }
+    let by_vertex = |material: &catoptric_scene::Material| {
+        matches!(material.paint, catoptric_scene::Paint::Vertex)
+    };
+    if mesh.materials.iter().any(by_vertex) {
+        check_count(surface, "corner colours", mesh.colors.len(), triangles)?;
+    }
+    Ok(())
+}
+
+fn check_count(
+    surface: &str,
+    what: &'static str,
+    found: usize,
+    triangles: usize,
+) -> Result<(), ReferenceError> {
+    if found == triangles {
+        return Ok(());
+    }
+    Err(ReferenceError::Attribute { surface: surface.to_owned(), what, found, triangles })
+}
+
+fn check_index(
+    surface: &str,
+    triangle: usize,
+    what: &'static str,
+    index: u32,
+    count: usize,
+) -> Result<(), ReferenceError> {
+    if (index as usize) < count {
+        return Ok(());
+    }
+    Err(ReferenceError::Index { surface: surface.to_owned(), triangle, what, index, count })
 }

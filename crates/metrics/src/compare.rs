@@ -1,11 +1,14 @@
 //! Two frames in, one [`Comparison`] out.
 
-use catoptric_frame::{Frame, Image};
+use catoptric_frame::{Frame, Image, Status};
 use glam::Vec3;
 
 use crate::MetricsError;
+use crate::color::ColorMaps;
+use crate::coverage::{Layers, is_reflecting, rim};
 use crate::flip::DEFAULT_PIXELS_PER_DEGREE;
-use crate::record::{ColorError, Comparison};
+use crate::record::{ColorError, Comparison, Coverage, Mismatch, NonFinite, Region, Regions};
+use crate::stats::Summary;
 
 /// What a comparison cannot see in the pictures.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,8 +43,26 @@ pub fn compare_with(
     test: &Frame,
     options: &CompareOptions,
 ) -> Result<Comparison, MetricsError> {
-    let _ = (reference, test, options);
-    todo!()
+    let layers = Layers::new(reference, test)?;
+    let colors = ColorMaps::new(&reference.color, &test.color, options.pixels_per_degree)?;
+    let rim = rim(&layers.mask);
+    let in_mask = |index: usize| layers.mask.pixels()[index];
+    let in_rim = |index: usize| rim.pixels()[index];
+
+    let whole = region(&layers, &colors, in_mask);
+    Ok(Comparison {
+        coverage: coverage(&layers, options),
+        object_agreement: whole.object_agreement,
+        mismatch: mismatch(&layers),
+        angular_error_deg: whole.angular_error_deg,
+        color: whole.color,
+        non_finite: non_finite(&layers, &reference.color, &test.color),
+        regions: Regions {
+            image: colors.over(|_| true),
+            rim: region(&layers, &colors, in_rim),
+            interior: region(&layers, &colors, |index| in_mask(index) && !in_rim(index)),
+        },
+    })
 }
 
 /// Colour error on the pixels where `mask` is true; `None` if it has no pixel to compare.
@@ -51,6 +72,108 @@ pub fn compare_color(
     mask: &Image<bool>,
     pixels_per_degree: f32,
 ) -> Result<Option<ColorError>, MetricsError> {
-    let _ = (reference, test, mask, pixels_per_degree);
-    todo!()
+    MetricsError::same_size("color", reference.size(), test.size())?;
+    MetricsError::same_size("mask", reference.size(), mask.size())?;
+    let colors = ColorMaps::new(reference, test, pixels_per_degree)?;
+    Ok(colors.over(|index| mask.pixels()[index]))
+}
+
+fn region(layers: &Layers, colors: &ColorMaps, includes: impl Fn(usize) -> bool) -> Region {
+    let pixels = || layers.mirror_pixels().filter(|&index| includes(index));
+    let count = pixels().count() as u64;
+    let agreeing = pixels().filter(|&index| layers.agree(index)).count() as u64;
+    let angles = pixels().filter_map(|index| layers.angular_error_deg(index));
+    Region {
+        mirror_pixels: count,
+        object_agreement: share(agreeing, count),
+        angular_error_deg: Summary::of(angles.filter(|angle| angle.is_finite())),
+        color: colors.over(&includes),
+    }
+}
+
+fn coverage(layers: &Layers, options: &CompareOptions) -> Coverage {
+    let (reference, test) = (
+        layers.reference.status.pixels(),
+        layers.test.status.pixels(),
+    );
+    let count_all = |holds: &dyn Fn(Status, Status) -> bool| {
+        reference
+            .iter()
+            .zip(test)
+            .filter(|&(&r, &t)| holds(r, t))
+            .count() as u64
+    };
+    let count = |holds: &dyn Fn(usize) -> bool| {
+        layers.mirror_pixels().filter(|&index| holds(index)).count() as u64
+    };
+
+    let mirror_pixels = count(&|_| true);
+    let missing = count(&|index| layers.show(index) == [true, false]);
+    let extra =
+        count(&|index| layers.show(index) == [false, true] && reference[index] == Status::Resolved);
+    let both = count(&|index| layers.show(index) == [true, true]);
+    let either = count(&|index| layers.show(index) != [false, false]);
+    let unresolved = count(&|index| test[index] == Status::Unresolved);
+    let gaps = (mirror_pixels > 0).then(|| layers.gaps());
+    let below = |status| status == Status::Below;
+
+    Coverage {
+        mirror_pixels,
+        missing: share(missing, mirror_pixels),
+        extra: share(extra, mirror_pixels),
+        unresolved: share(unresolved, mirror_pixels)
+            .filter(|_| options.may_be_unresolved || unresolved > 0),
+        cracks: gaps.as_ref().map(|gaps| gaps.cracks),
+        crack_pixels: gaps.as_ref().map(|gaps| gaps.crack_pixels),
+        widest_crack_px: gaps.as_ref().map(|gaps| gaps.widest_crack),
+        holes: gaps.as_ref().map(|gaps| gaps.holes),
+        t_junctions: options.t_junctions,
+        below: count_all(&|r, t| below(r) || below(t)),
+        mirror_only_reference: count_all(&|r, t| {
+            is_reflecting(r) && !is_reflecting(t) && !below(t)
+        }),
+        mirror_only_test: count_all(&|r, t| is_reflecting(t) && !is_reflecting(r) && !below(r)),
+        iou: share(both, either),
+    }
+}
+
+fn mismatch(layers: &Layers) -> Option<Mismatch> {
+    let [mut boundary, mut interior, mut all] = [0_u64; 3];
+    for index in layers.mirror_pixels() {
+        all += 1;
+        if !layers.agree(index) {
+            let place = if layers.on_id_edge(index) {
+                &mut boundary
+            } else {
+                &mut interior
+            };
+            *place += 1;
+        }
+    }
+    Some(Mismatch {
+        boundary: share(boundary, all)?,
+        interior: share(interior, all)?,
+    })
+}
+
+fn non_finite(layers: &Layers, reference: &Image<Vec3>, test: &Image<Vec3>) -> NonFinite {
+    let count = |image: &Image<Vec3>| {
+        layers
+            .mirror_pixels()
+            .filter(|&index| !image.pixels()[index].is_finite())
+            .count() as u64
+    };
+    let angles = layers
+        .mirror_pixels()
+        .filter_map(|index| layers.angular_error_deg(index));
+    NonFinite {
+        reference: count(reference),
+        test: count(test),
+        angles: angles.filter(|angle| !angle.is_finite()).count() as u64,
+    }
+}
+
+/// `None` instead of a division by zero.
+fn share(part: u64, whole: u64) -> Option<f64> {
+    (whole > 0).then(|| part as f64 / whole as f64)
 }

@@ -5,16 +5,20 @@
 //! per-pixel errors. Every mean divides by the number of pixels in its mask and accumulates in
 //! `f64`; an empty mask gives `None`.
 
+mod color;
 pub mod compare;
 pub mod coverage;
+mod filter;
 pub mod flip;
 pub mod maps;
 pub mod record;
+mod ssim;
 pub mod stats;
 pub mod temporal;
 pub mod vertices;
 
 pub use compare::{CompareOptions, compare, compare_color, compare_with};
+pub use flip::{FlipStats, flip};
 pub use maps::{
     Colormap, CoverageClass, MapKind, color_bar, colorize, colorize_coverage, error_map,
 };
@@ -54,4 +58,22 @@ pub enum MetricsError {
         /// Entries of the truth.
         truth: usize,
     },
+}
+
+impl MetricsError {
+    fn same_size(
+        what: &'static str,
+        reference: [u32; 2],
+        test: [u32; 2],
+    ) -> Result<(), MetricsError> {
+        if reference == test {
+            Ok(())
+        } else {
+            Err(MetricsError::Size {
+                what,
+                reference,
+                test,
+            })
+        }
+    }
 }

@@ -3,6 +3,11 @@
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
+use crate::stats::Summary;
+
+/// A change of the error above this is a jump, in pixels.
+pub const JUMP_PX: f64 = 2.0;
+
 /// The record's `temporal`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Temporal {
@@ -30,6 +35,58 @@ pub struct Jitter {
 /// vertex has no true point in view or the search failed. Frames have the same vertices in the same
 /// order.
 pub fn temporal(errors: &[Vec<Option<DVec2>>]) -> Temporal {
-    let _ = errors;
-    todo!()
+    let pairs = errors
+        .windows(2)
+        .flat_map(|pair| pair[0].iter().zip(&pair[1]));
+    let changes: Vec<f64> = pairs
+        .filter_map(|(before, after)| Some((*after.as_ref()? - *before.as_ref()?).length()))
+        .collect();
+    let jumps = changes.iter().filter(|&&change| change > JUMP_PX).count();
+    let summary = Summary::of(changes.iter().copied());
+    Temporal {
+        frames: errors.len() as u64,
+        jitter_px: summary.map(|Summary { mean, p99, max, .. }| Jitter { mean, p99, max }),
+        jumps: summary.map(|_| jumps as f64 / changes.len() as f64),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_constant_error_is_steady() {
+        let frame = vec![Some(DVec2::new(3.0, -4.0)), Some(DVec2::ZERO)];
+        let steady = temporal(&[frame.clone(), frame.clone(), frame]);
+        assert_eq!(steady.frames, 3);
+        assert_eq!(
+            steady.jitter_px,
+            Some(Jitter {
+                mean: 0.0,
+                p99: 0.0,
+                max: 0.0
+            })
+        );
+        assert_eq!(steady.jumps, Some(0.0));
+    }
+
+    #[test]
+    fn jumps_are_counted_and_gaps_are_left_out() {
+        let at = |x| Some(DVec2::new(x, 0.0));
+        let found = temporal(&[
+            vec![at(0.0), at(0.0)],
+            vec![at(3.0), None],
+            vec![at(2.0), at(9.0)],
+        ]);
+        assert_eq!(found.jitter_px.unwrap().mean, 2.0);
+        assert_eq!(found.jitter_px.unwrap().max, 3.0);
+        assert_eq!(found.jumps, Some(0.5));
+    }
+
+    #[test]
+    fn without_two_frames_running_there_is_no_jitter() {
+        let none = temporal(&[vec![Some(DVec2::ONE)], vec![None]]);
+        assert_eq!((none.frames, none.jitter_px, none.jumps), (2, None, None));
+        assert_eq!(temporal(&[]).frames, 0);
+    }
 }

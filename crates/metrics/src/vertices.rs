@@ -1,6 +1,6 @@
 //! Per-vertex answers of a search against the exact reflection points.
 
-use catoptric_frame::{TrueVertex, VertexResult, Work};
+use catoptric_frame::{TrueVertex, VertexClass, VertexResult, VertexState, Work};
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
@@ -68,12 +68,248 @@ pub fn vertex_report(
     truth: &[TrueVertex],
     in_view: impl Fn(usize, DVec2) -> bool,
 ) -> Result<VertexReport, MetricsError> {
-    let _ = (results, truth, in_view);
-    todo!()
+    let groups: Vec<&[VertexResult]> = results.chunk_by(same_pair).collect();
+    if groups.len() != truth.len() {
+        return Err(MetricsError::Length {
+            results: groups.len(),
+            truth: truth.len(),
+        });
+    }
+
+    let [mut reflected, mut failed, mut solutions, mut recalled] = [0_u64; 4];
+    let mut discard = Discard::default();
+    let mut offsets = Vec::new();
+    for (pair, (group, truth)) in groups.iter().zip(truth).enumerate() {
+        let is_in_view = |q: &DVec2| in_view(pair, *q);
+        let in_view: Vec<DVec2> = truth
+            .points
+            .iter()
+            .filter_map(|(_, q)| *q)
+            .filter(is_in_view)
+            .collect();
+        let states = || group.iter().map(|result| result.state);
+        if truth.class == VertexClass::Hidden && states().any(|state| state == VertexState::Found) {
+            discard.false_keep += 1;
+        }
+        if in_view.is_empty() {
+            continue;
+        }
+        reflected += 1;
+        if states().all(|state| state == VertexState::Failed) {
+            failed += 1;
+        } else if !states().any(|state| state == VertexState::Found) {
+            discard.false_drop += 1;
+        }
+
+        let answers = group
+            .iter()
+            .filter(|result| result.state != VertexState::Failed);
+        let found: Vec<DVec2> = answers.map(|result| result.at.as_dvec2()).collect();
+        solutions += in_view.len() as u64;
+        recalled += in_view
+            .iter()
+            .filter(|&&q| nearest(q, &found).is_some_and(|offset| offset <= MATCH_RADIUS_PX))
+            .count() as u64;
+        // All projected solutions, not only those in view: the nearest one is what was found.
+        let projected: Vec<DVec2> = truth.points.iter().filter_map(|(_, q)| *q).collect();
+        offsets.extend(found.iter().filter_map(|&q| nearest(q, &projected)));
+    }
+
+    Ok(VertexReport {
+        searched: truth.len() as u64,
+        reflected,
+        hidden: truth
+            .iter()
+            .filter(|truth| truth.class == VertexClass::Hidden)
+            .count() as u64,
+        failed,
+        recall: (solutions > 0).then(|| recalled as f64 / solutions as f64),
+        hole: count_flags(results.iter().map(|result| result.hole)),
+        enlarged: count_flags(results.iter().map(|result| result.enlarged)),
+        offset_share: offset_share(&offsets),
+        offset_px: Summary::of(offsets),
+        discard,
+    })
 }
 
 /// Mean work per (object vertex, mirror) pair; `None` without results.
 pub fn mean_work(results: &[VertexResult]) -> Option<Work> {
-    let _ = results;
-    todo!()
+    let pairs = results.chunk_by(same_pair).count();
+    let mean = |count: fn(&VertexResult) -> u32| {
+        results
+            .iter()
+            .map(|result| f64::from(count(result)))
+            .sum::<f64>()
+            / pairs as f64
+    };
+    (pairs > 0).then(|| Work {
+        evaluations: mean(|result| result.evaluations),
+        steps: mean(|result| result.steps),
+        node_tests: mean(|result| result.node_tests),
+        ..Work::default()
+    })
+}
+
+/// Solutions of one pair follow each other.
+fn same_pair(a: &VertexResult, b: &VertexResult) -> bool {
+    (a.object, a.vertex, a.mirror) == (b.object, b.vertex, b.mirror)
+}
+
+fn nearest(to: DVec2, points: &[DVec2]) -> Option<f64> {
+    points
+        .iter()
+        .map(|point| point.distance(to))
+        .min_by(f64::total_cmp)
+}
+
+/// `None` if no result carries the flag.
+fn count_flags(flags: impl Iterator<Item = Option<bool>>) -> Option<u64> {
+    flags.flatten().fold(None, |count, flag| {
+        Some(count.unwrap_or(0) + u64::from(flag))
+    })
+}
+
+fn offset_share(offsets: &[f64]) -> Option<OffsetShare> {
+    let over = |limit: f64| {
+        offsets.iter().filter(|&&offset| offset > limit).count() as f64 / offsets.len() as f64
+    };
+    (!offsets.is_empty()).then(|| OffsetShare {
+        over_0_71: over(0.71),
+        over_2: over(2.0),
+        over_5: over(5.0),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{DVec3, Vec2};
+
+    fn result(vertex: u32, state: VertexState, at: [f32; 2]) -> VertexResult {
+        VertexResult {
+            object: 1,
+            vertex,
+            mirror: 2,
+            state,
+            at: Vec2::from(at),
+            steps: 3,
+            evaluations: 13,
+            node_tests: 0,
+            hole: None,
+            enlarged: None,
+        }
+    }
+
+    fn truth(class: VertexClass, points: &[[f64; 2]]) -> TrueVertex {
+        let points = points
+            .iter()
+            .map(|&q| (DVec3::ZERO, Some(DVec2::from(q))))
+            .collect();
+        TrueVertex { class, points }
+    }
+
+    const REFLECTED: VertexClass = VertexClass::Reflected;
+
+    fn report(results: &[VertexResult], truth: &[TrueVertex]) -> VertexReport {
+        vertex_report(results, truth, |_, q| q.x >= 0.0 && q.x < 100.0).unwrap()
+    }
+
+    #[test]
+    fn exact_answers_have_no_error() {
+        let results = [0, 1].map(|v| result(v, VertexState::Found, [10.5, 20.5]));
+        let truth = [0, 1].map(|_| truth(REFLECTED, &[[10.5, 20.5]]));
+        let report = report(&results, &truth);
+        assert_eq!(
+            (report.searched, report.reflected, report.failed),
+            (2, 2, 0)
+        );
+        assert_eq!(report.recall, Some(1.0));
+        assert_eq!(report.offset_px.unwrap().max, 0.0);
+        assert_eq!(report.discard, Discard::default());
+        assert_eq!((report.hole, report.enlarged), (None, None));
+        assert_eq!(mean_work(&results).unwrap().evaluations, 13.0);
+    }
+
+    #[test]
+    fn every_kind_of_mistake_is_counted() {
+        let results = [
+            result(0, VertexState::Found, [13.5, 24.5]),
+            result(1, VertexState::Failed, [0.0, 0.0]),
+            result(2, VertexState::Hidden, [10.5, 20.5]),
+            result(3, VertexState::Found, [50.0, 50.0]),
+            result(4, VertexState::Found, [50.0, 50.0]),
+        ];
+        let truth = [
+            truth(REFLECTED, &[[10.5, 20.5]]),
+            truth(REFLECTED, &[[10.5, 20.5]]),
+            truth(REFLECTED, &[[10.5, 20.5]]),
+            truth(VertexClass::Hidden, &[]),
+            truth(REFLECTED, &[[-5.0, 20.5]]),
+        ];
+        let report = report(&results, &truth);
+        assert_eq!(
+            (report.searched, report.reflected, report.hidden),
+            (5, 3, 1)
+        );
+        assert_eq!(report.failed, 1);
+        assert_eq!(
+            report.discard,
+            Discard {
+                false_keep: 1,
+                false_drop: 1
+            }
+        );
+        assert_eq!(report.recall, Some(1.0 / 3.0));
+        let offset = report.offset_px.unwrap();
+        assert_eq!((offset.mean, offset.max), (2.5, 5.0));
+        let share = report.offset_share.unwrap();
+        assert_eq!(
+            (share.over_0_71, share.over_2, share.over_5),
+            (0.5, 0.5, 0.0)
+        );
+    }
+
+    #[test]
+    fn several_solutions_are_matched_one_by_one() {
+        let truth = [truth(
+            REFLECTED,
+            &[[10.0, 10.0], [30.0, 10.0], [-20.0, 10.0]],
+        )];
+        let one = [result(0, VertexState::Found, [30.0, 10.5])];
+        assert_eq!(report(&one, &truth).recall, Some(0.5));
+        assert_eq!(report(&one, &truth).offset_px.unwrap().max, 0.5);
+        let two = [one[0], result(0, VertexState::Found, [10.0, 10.0])];
+        assert_eq!(report(&two, &truth).recall, Some(1.0));
+        assert_eq!(report(&two, &truth).searched, 1);
+    }
+
+    #[test]
+    fn flags_are_counted_only_where_they_exist() {
+        let mut results = [0, 1].map(|v| result(v, VertexState::Found, [1.0, 1.0]));
+        results[0].hole = Some(false);
+        results[1].hole = Some(true);
+        let truth = [0, 1].map(|_| truth(REFLECTED, &[[1.0, 1.0]]));
+        assert_eq!(
+            (
+                report(&results, &truth).hole,
+                report(&results, &truth).enlarged
+            ),
+            (Some(1), None)
+        );
+    }
+
+    #[test]
+    fn nothing_searched_gives_no_numbers() {
+        let report = report(&[], &[]);
+        assert_eq!((report.recall, report.offset_px), (None, None));
+        assert_eq!(mean_work(&[]), None);
+        let truth = [truth(REFLECTED, &[[1.0, 1.0]])];
+        assert!(matches!(
+            vertex_report(&[], &truth, |_, _| true),
+            Err(MetricsError::Length {
+                results: 0,
+                truth: 1
+            })
+        ));
+    }
 }

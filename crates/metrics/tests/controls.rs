@@ -1,0 +1,475 @@
+//! Every metric is shown to fail: a known fault is put into a frame and must trip it, by the amount
+//! that follows from the fault.
+
+use catoptric_frame::{Frame, Image, Name, Primary, Reflected, Status};
+use catoptric_metrics::{
+    CompareOptions, Comparison, CoverageClass, MapKind, MetricsError, compare, compare_color,
+    compare_with, error_map,
+};
+use glam::Vec3;
+
+const SIZE: [u32; 2] = [64, 48];
+const MIRROR: u32 = 3;
+
+/// A round mirror at z = 0, its lower half showing floor (1), a block (2) in it, background above.
+/// Positions are one unit behind the mirror point, so that angles are known.
+fn frame() -> Frame {
+    scene(0)
+}
+
+/// The same with everything that is reflected moved `shift` pixels to the right.
+fn scene(shift: i32) -> Frame {
+    let pixels = || (0..SIZE[1] as i32).flat_map(|y| (0..SIZE[0] as i32).map(move |x| (x, y)));
+    let is_mirror = |(x, y): (i32, i32)| (x - 32).pow(2) + (y - 24).pow(2) < 400;
+    let reflected_id = move |(x, y): (i32, i32)| {
+        let x = x - shift;
+        match (x, y) {
+            _ if !is_mirror((x + shift, y)) => 0,
+            (26..36, 14..34) => 2,
+            (_, 24..) => 1,
+            _ => 0,
+        }
+    };
+    let point = |(x, y): (i32, i32)| Vec3::new(x as f32, y as f32, 0.0) / 10.0;
+    let color = move |(x, y): (i32, i32)| match reflected_id((x, y)) {
+        1 => Vec3::new(0.6, 0.5, 0.1) * (0.5 + ((x - shift) % 8) as f32 / 16.0),
+        2 => Vec3::new(0.1, 0.2, 0.7),
+        _ => Vec3::splat(0.25),
+    };
+    let hit = move |at: (i32, i32)| match reflected_id(at) {
+        0 => Vec3::ZERO,
+        _ => point((at.0 - shift, at.1)) - Vec3::Z,
+    };
+    Frame {
+        color: Image::from_vec(SIZE, pixels().map(color).collect()),
+        primary: Some(Primary {
+            id: Image::from_vec(
+                SIZE,
+                pixels().map(|p| u32::from(is_mirror(p)) * MIRROR).collect(),
+            ),
+            position: Image::from_vec(SIZE, pixels().map(point).collect()),
+            normal: Image::filled(SIZE, Vec3::Z),
+        }),
+        reflected: Some(Reflected {
+            status: Image::from_vec(
+                SIZE,
+                pixels()
+                    .map(|p| {
+                        if is_mirror(p) {
+                            Status::Resolved
+                        } else {
+                            Status::NotMirror
+                        }
+                    })
+                    .collect(),
+            ),
+            id: Image::from_vec(SIZE, pixels().map(reflected_id).collect()),
+            position: Image::from_vec(SIZE, pixels().map(hit).collect()),
+            distance: Image::filled(SIZE, 1.0),
+            bounces: None,
+        }),
+        names: vec![Name {
+            id: MIRROR,
+            name: "mirror".into(),
+            mirror: true,
+        }],
+    }
+}
+
+fn layers(frame: &mut Frame) -> &mut Reflected {
+    frame.reflected.as_mut().unwrap()
+}
+
+/// Compares the frame with itself after `fault` has happened to it.
+fn with_fault(fault: impl FnOnce(&mut Frame)) -> Comparison {
+    let mut test = frame();
+    fault(&mut test);
+    compare(&frame(), &test).unwrap()
+}
+
+/// The technique sees nothing at these pixels.
+fn cut(frame: &mut Frame, columns: std::ops::Range<u32>, rows: std::ops::Range<u32>) -> f64 {
+    for y in rows.clone() {
+        for x in columns.clone() {
+            *layers(frame).id.at_mut(x, y) = 0;
+            *layers(frame).position.at_mut(x, y) = Vec3::ZERO;
+        }
+    }
+    f64::from((columns.end - columns.start) * (rows.end - rows.start))
+}
+
+fn mirror_pixels() -> f64 {
+    with_fault(|_| {}).coverage.mirror_pixels as f64
+}
+
+#[test]
+fn identical_frames_are_without_any_error() {
+    let same = with_fault(|_| {});
+    assert_eq!(same.coverage.mirror_pixels, 1245);
+    assert_eq!(
+        (same.coverage.missing, same.coverage.extra),
+        (Some(0.0), Some(0.0))
+    );
+    assert_eq!(
+        (same.coverage.unresolved, same.coverage.t_junctions),
+        (None, None)
+    );
+    assert_eq!(
+        (same.coverage.cracks, same.coverage.holes),
+        (Some(0), Some(0))
+    );
+    assert_eq!(same.coverage.iou, Some(1.0));
+    assert_eq!(same.object_agreement, Some(1.0));
+    let mismatch = same.mismatch.unwrap();
+    assert_eq!((mismatch.boundary, mismatch.interior), (0.0, 0.0));
+    assert_eq!(same.angular_error_deg.unwrap().max, 0.0);
+    let regions = [same.color, same.regions.image, same.regions.rim.color];
+    for color in regions.into_iter().chain([same.regions.interior.color]) {
+        let color = color.unwrap();
+        assert_eq!((color.mae, color.rmse, color.psnr), (0.0, 0.0, None));
+        assert_eq!((color.ssim, color.flip), (1.0, 0.0));
+        assert_eq!((color.rel_mse, color.mrse), (0.0, 0.0));
+    }
+    let parts = same.regions.rim.mirror_pixels + same.regions.interior.mirror_pixels;
+    assert_eq!(parts, same.coverage.mirror_pixels);
+    assert!(same.regions.rim.mirror_pixels > 300);
+}
+
+#[test]
+fn one_pixel_to_the_right_trips_everything() {
+    let shifted = compare(&frame(), &scene(1)).unwrap();
+    // The block's left edge: ten rows lose it to the background above, its right edge gains ten.
+    assert_eq!(shifted.coverage.missing, Some(10.0 / mirror_pixels()));
+    assert_eq!(shifted.coverage.extra, Some(10.0 / mirror_pixels()));
+    assert_eq!(shifted.object_agreement, Some(1.0 - 40.0 / mirror_pixels()));
+    let mismatch = shifted.mismatch.unwrap();
+    assert!(mismatch.boundary > 0.0);
+    assert_eq!(
+        mismatch.interior, 0.0,
+        "a pixel's shift stays within a pixel of the edges"
+    );
+    // A tenth of a unit sideways at a distance of one unit.
+    let expected = 0.1_f64.atan().to_degrees();
+    let angle = shifted.angular_error_deg.unwrap();
+    assert!((angle.p50 - expected).abs() < 1e-4 && (angle.max - expected).abs() < 1e-4);
+    let color = shifted.color.unwrap();
+    assert!(color.mae > 0.01 && color.rmse > 0.02 && color.psnr.unwrap() < 35.0);
+    assert!(color.ssim < 0.95 && color.flip > 0.02, "{color:?}");
+}
+
+#[test]
+fn swapped_ids_trip_agreement_but_not_coverage() {
+    let swapped = with_fault(|test| {
+        for id in layers(test).id.pixels_mut() {
+            *id = [0, 2, 1][*id as usize];
+        }
+    });
+    let surface = frame()
+        .reflected
+        .unwrap()
+        .id
+        .pixels()
+        .iter()
+        .filter(|&&id| id > 0)
+        .count();
+    let share = surface as f64 / mirror_pixels();
+    assert!((swapped.object_agreement.unwrap() - (1.0 - share)).abs() < 1e-12);
+    assert!(swapped.mismatch.unwrap().interior > 0.3);
+    assert_eq!(
+        (swapped.coverage.missing, swapped.coverage.extra),
+        (Some(0.0), Some(0.0))
+    );
+    assert_eq!(
+        swapped.angular_error_deg, None,
+        "no pixel where both see the same object"
+    );
+}
+
+#[test]
+fn one_percent_brighter_trips_colour_by_as_much() {
+    let brighter = with_fault(|test| {
+        test.color
+            .pixels_mut()
+            .iter_mut()
+            .for_each(|color| *color *= 1.01)
+    });
+    let color = brighter.color.unwrap();
+    let reference = frame();
+    let status = reference.reflected.unwrap().status;
+    let mask = status.map(|&status| status == Status::Resolved);
+    let of_mask = reference
+        .color
+        .pixels()
+        .iter()
+        .zip(mask.pixels())
+        .filter(|(_, inside)| **inside);
+    let mean = of_mask
+        .map(|(color, _)| color.element_sum() as f64)
+        .sum::<f64>();
+    let mean = mean / (3.0 * mirror_pixels());
+    assert!(
+        (color.mae - 0.01 * mean).abs() < 1e-6,
+        "{} {mean}",
+        color.mae
+    );
+    assert!(color.psnr.unwrap() > 45.0 && color.psnr.unwrap() < 60.0);
+    assert!(color.ssim < 1.0 && color.flip > 0.0 && color.rel_mse > 0.0 && color.mrse > 0.0);
+    assert_eq!(brighter.object_agreement, Some(1.0));
+    assert_eq!(brighter.angular_error_deg.unwrap().max, 0.0);
+}
+
+#[test]
+fn a_known_colour_difference_gives_the_textbook_numbers() {
+    let flat = |value: f32| Image::filled([16, 16], Vec3::splat(value));
+    let mask = Image::filled([16, 16], true);
+    let color = compare_color(&flat(0.5), &flat(0.75), &mask, 67.0)
+        .unwrap()
+        .unwrap();
+    assert_eq!((color.mae, color.rmse), (0.25, 0.25));
+    assert!((color.psnr.unwrap() - 12.041_199_826_559_248).abs() < 1e-12);
+    assert!((color.rel_mse - 0.0625 / 0.26).abs() < 1e-12);
+    assert!((color.mrse - 0.0625 / 0.2601).abs() < 1e-12);
+}
+
+#[test]
+fn a_dropped_triangle_is_missing_and_a_thin_one_is_a_crack() {
+    let mut pixels = 0.0;
+    let dropped = with_fault(|test| pixels = cut(test, 20..24, 27..32));
+    assert_eq!(dropped.coverage.missing, Some(pixels / mirror_pixels()));
+    assert_eq!(dropped.coverage.cracks, Some(1));
+    assert_eq!(dropped.coverage.crack_pixels, Some(20));
+    assert_eq!(dropped.coverage.widest_crack_px, Some(4));
+    assert_eq!(
+        dropped.object_agreement,
+        Some(1.0 - pixels / mirror_pixels())
+    );
+    assert!(dropped.coverage.iou.unwrap() < 1.0);
+
+    let cracked = with_fault(|test| {
+        cut(test, 20..21, 26..36);
+        cut(test, 40..45, 30..31);
+    });
+    assert_eq!(
+        (cracked.coverage.cracks, cracked.coverage.widest_crack_px),
+        (Some(2), Some(1))
+    );
+
+    let at_the_edge = with_fault(|test| {
+        cut(test, 18..22, 24..26);
+    });
+    assert!(at_the_edge.coverage.missing > Some(0.0));
+    assert_eq!(
+        at_the_edge.coverage.cracks,
+        Some(0),
+        "open towards the background"
+    );
+}
+
+#[test]
+fn something_where_nothing_is_is_extra() {
+    let extra = with_fault(|test| *layers(test).id.at_mut(32, 8) = 1);
+    assert_eq!(extra.coverage.extra, Some(1.0 / mirror_pixels()));
+    assert_eq!(extra.coverage.missing, Some(0.0));
+}
+
+#[test]
+fn unresolved_pixels_are_no_background() {
+    let at_background = with_fault(|test| *layers(test).status.at_mut(32, 8) = Status::Unresolved);
+    assert_eq!(
+        at_background.coverage.unresolved,
+        Some(1.0 / mirror_pixels())
+    );
+    assert_eq!(at_background.coverage.missing, Some(0.0));
+    assert_eq!(
+        at_background.object_agreement,
+        Some(1.0 - 1.0 / mirror_pixels())
+    );
+
+    let at_object = with_fault(|test| {
+        cut(test, 20..21, 30..31);
+        *layers(test).status.at_mut(20, 30) = Status::Unresolved;
+    });
+    assert_eq!(at_object.coverage.missing, Some(1.0 / mirror_pixels()));
+    assert_eq!(
+        at_object.coverage.cracks,
+        Some(0),
+        "it says that it does not know"
+    );
+
+    let options = CompareOptions {
+        may_be_unresolved: true,
+        t_junctions: Some(7),
+        ..CompareOptions::default()
+    };
+    let resolved = compare_with(&frame(), &frame(), &options).unwrap();
+    assert_eq!(resolved.coverage.unresolved, Some(0.0));
+    assert_eq!(resolved.coverage.t_junctions, Some(7));
+}
+
+#[test]
+fn below_and_back_are_counted_apart() {
+    let apart = with_fault(|test| {
+        *layers(test).status.at_mut(32, 30) = Status::Below;
+        *layers(test).status.at_mut(33, 30) = Status::Back;
+        *layers(test).status.at_mut(0, 0) = Status::Resolved;
+    });
+    assert_eq!(apart.coverage.mirror_pixels as f64, mirror_pixels() - 2.0);
+    assert_eq!(apart.coverage.below, 1);
+    assert_eq!(apart.coverage.mirror_only_reference, 1);
+    assert_eq!(apart.coverage.mirror_only_test, 1);
+    assert_eq!(apart.object_agreement, Some(1.0));
+}
+
+#[test]
+fn what_is_not_finite_is_counted_and_left_out() {
+    let odd = with_fault(|test| {
+        *test.color.at_mut(32, 24) = Vec3::splat(f32::NAN);
+        *test.color.at_mut(33, 24) = Vec3::new(0.0, f32::INFINITY, 0.0);
+        *layers(test).position.at_mut(20, 30) = Vec3::splat(f32::NAN);
+    });
+    assert_eq!((odd.non_finite.reference, odd.non_finite.test), (0, 2));
+    assert_eq!(odd.non_finite.angles, 1);
+    assert_eq!(odd.color.unwrap().mae, 0.0);
+    assert!(odd.color.unwrap().flip.is_finite() && odd.color.unwrap().ssim.is_finite());
+    assert_eq!(odd.angular_error_deg.unwrap().max, 0.0);
+}
+
+#[test]
+fn no_mirror_in_view_gives_null_and_no_division_by_zero() {
+    let mut empty = frame();
+    layers(&mut empty)
+        .status
+        .pixels_mut()
+        .fill(Status::NotMirror);
+    let nothing = compare(&empty, &empty).unwrap();
+    assert_eq!(nothing.coverage.mirror_pixels, 0);
+    assert_eq!(
+        (nothing.coverage.missing, nothing.coverage.extra),
+        (None, None)
+    );
+    assert_eq!(
+        (nothing.coverage.cracks, nothing.object_agreement),
+        (None, None)
+    );
+    assert!(nothing.angular_error_deg.is_none() && nothing.color.is_none());
+    assert!(nothing.mismatch.is_none() && nothing.regions.image.is_some());
+    let text = serde_json::to_string(&nothing).unwrap();
+    assert!(text.contains(r#""object_agreement":null"#) && text.contains(r#""color":null"#));
+}
+
+#[test]
+fn the_record_has_the_agreed_names() {
+    let json = serde_json::to_value(with_fault(|_| {})).unwrap();
+    let names = |value: &serde_json::Value| -> Vec<String> {
+        value.as_object().unwrap().keys().cloned().collect()
+    };
+    let pieces = [
+        (
+            &json,
+            vec!["coverage", "object_agreement", "angular_error_deg", "color"],
+        ),
+        (
+            &json["angular_error_deg"],
+            vec!["mean", "p50", "p95", "p99", "max"],
+        ),
+        (&json["color"], vec!["mae", "rmse", "psnr", "ssim", "flip"]),
+        (
+            &json["coverage"],
+            vec![
+                "mirror_pixels",
+                "missing",
+                "extra",
+                "unresolved",
+                "cracks",
+                "t_junctions",
+            ],
+        ),
+    ];
+    for (piece, agreed) in pieces {
+        let names = names(piece);
+        assert!(
+            agreed.iter().all(|name| names.iter().any(|n| n == name)),
+            "{names:?}"
+        );
+    }
+    let text = serde_json::to_string(&json).unwrap();
+    assert_eq!(
+        serde_json::from_str::<Comparison>(&text).unwrap(),
+        with_fault(|_| {})
+    );
+}
+
+#[test]
+fn pictures_that_do_not_belong_together_are_refused() {
+    let mut small = frame();
+    small.color = Image::filled([3, 3], Vec3::ZERO);
+    assert!(matches!(
+        compare(&frame(), &small),
+        Err(MetricsError::Size { .. })
+    ));
+    let mut bare = frame();
+    bare.reflected = None;
+    let error = compare(&frame(), &bare).unwrap_err().to_string();
+    assert!(
+        error.contains("technique") && error.contains("reflected"),
+        "{error}"
+    );
+    bare.primary = None;
+    assert!(
+        compare(&bare, &frame())
+            .unwrap_err()
+            .to_string()
+            .contains("reference")
+    );
+}
+
+#[test]
+fn maps_show_the_faults_where_they_are() {
+    let mut test = frame();
+    cut(&mut test, 20..22, 28..30);
+    *layers(&mut test).id.at_mut(32, 8) = 1;
+    *layers(&mut test).id.at_mut(30, 30) = 1;
+    *layers(&mut test).status.at_mut(32, 6) = Status::Unresolved;
+    *test.color.at_mut(32, 20) += 0.3;
+    *layers(&mut test).position.at_mut(40, 30) += Vec3::X;
+    let map = |kind| error_map(kind, &frame(), &test).unwrap();
+
+    let coverage = map(MapKind::Coverage);
+    for (x, y, class) in [
+        (20, 28, CoverageClass::Crack),
+        (32, 8, CoverageClass::Extra),
+        (30, 30, CoverageClass::WrongId),
+        (32, 6, CoverageClass::Unresolved),
+        (32, 24, CoverageClass::Agree),
+    ] {
+        assert_eq!(*coverage.at(x, y), f32::from(class as u8), "{class:?}");
+    }
+    for kind in [MapKind::AbsColor, MapKind::SignedColor] {
+        assert!((map(kind).at(32, 20) - 0.3).abs() < 1e-6);
+        assert_eq!(*map(kind).at(32, 24), 0.0);
+    }
+    assert!((map(MapKind::Angular).at(40, 30) - 45.0).abs() < 1e-4);
+    assert!(map(MapKind::Angular).at(32, 8).is_nan(), "background");
+    assert_eq!(
+        (
+            *map(MapKind::IdMismatch).at(30, 30),
+            *map(MapKind::IdMismatch).at(32, 24)
+        ),
+        (1.0, 0.0)
+    );
+    assert!(*map(MapKind::Flip).at(32, 20) > 0.05);
+    for kind in [
+        MapKind::AbsColor,
+        MapKind::Coverage,
+        MapKind::Flip,
+        MapKind::IdMismatch,
+    ] {
+        assert!(map(kind).at(0, 0).is_nan(), "outside the mirror");
+    }
+    let missing = {
+        let mut test = frame();
+        cut(&mut test, 18..22, 24..26);
+        error_map(MapKind::Coverage, &frame(), &test).unwrap()
+    };
+    assert_eq!(*missing.at(20, 24), f32::from(CoverageClass::Missing as u8));
+}

@@ -11,8 +11,8 @@ use crate::{FrameError, Image};
 
 /// The sRGB code value (0 to 1) of a linear value, clamped; NaN gives 0.
 pub fn srgb_from_linear(linear: f32) -> f32 {
-    // `max` first: it turns NaN into 0.
-    let linear = linear.max(0.0).min(1.0);
+    // Not `clamp` alone, which keeps NaN: `max` turns it into 0.
+    let linear = linear.max(0.0).clamp(0.0, 1.0);
     if linear <= 0.003_130_8 {
         12.92 * linear
     } else {

@@ -1,6 +1,6 @@
 //! Frames in, error maps and statistics out: pure functions.
 //!
-//! [`compare`] judges a technique's picture against the reference's, [`vertex_report`] its search,
+//! [`compare()`] judges a technique's picture against the reference's, [`vertex_report`] its search,
 //! [`temporal()`] its steadiness; [`stats`] summarizes samples; [`maps`] and [`mod@flip`] give
 //! per-pixel errors. Every mean divides by the number of pixels in its mask and accumulates in
 //! `f64`; an empty mask gives `None`.

@@ -32,14 +32,15 @@ pub struct Jitter {
 }
 
 /// Jitter over a sequence: `errors[frame][vertex]` is found − true in pixels, `None` where the
-/// vertex has no true point in view or the search failed. Frames have the same vertices in the same
-/// order.
+/// vertex has no true point in view or the search failed (an error that is not finite counts as
+/// that). Frames have the same vertices in the same order.
 pub fn temporal(errors: &[Vec<Option<DVec2>>]) -> Temporal {
     let pairs = errors
         .windows(2)
         .flat_map(|pair| pair[0].iter().zip(&pair[1]));
     let changes: Vec<f64> = pairs
         .filter_map(|(before, after)| Some((*after.as_ref()? - *before.as_ref()?).length()))
+        .filter(|change: &f64| change.is_finite())
         .collect();
     let jumps = changes.iter().filter(|&&change| change > JUMP_PX).count();
     let summary = Summary::of(changes.iter().copied());
@@ -87,6 +88,8 @@ mod tests {
     fn without_two_frames_running_there_is_no_jitter() {
         let none = temporal(&[vec![Some(DVec2::ONE)], vec![None]]);
         assert_eq!((none.frames, none.jitter_px, none.jumps), (2, None, None));
+        let odd = temporal(&[vec![Some(DVec2::ONE)], vec![Some(DVec2::NAN)]]);
+        assert_eq!(odd.jitter_px, None);
         assert_eq!(temporal(&[]).frames, 0);
     }
 }

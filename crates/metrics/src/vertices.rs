@@ -18,6 +18,9 @@ pub struct VertexReport {
     pub hidden: u64,
     /// Of `reflected`, those for which the search says that it has no answer.
     pub failed: u64,
+    /// Answers that are NaN or infinite though the search reports none as failed; they count as
+    /// not found.
+    pub non_finite: u64,
     /// Found true solutions ÷ true solutions in view; found is within 0.75 px. `None` without any.
     pub recall: Option<f64>,
     /// Searches that met a gap in a hierarchy; `None` for searches without one.
@@ -123,6 +126,10 @@ pub fn vertex_report(
             .filter(|truth| truth.class == VertexClass::Hidden)
             .count() as u64,
         failed,
+        non_finite: results
+            .iter()
+            .filter(|result| is_non_finite(result))
+            .count() as u64,
         recall: (solutions > 0).then(|| recalled as f64 / solutions as f64),
         hole: count_flags(results.iter().map(|result| result.hole)),
         enlarged: count_flags(results.iter().map(|result| result.enlarged)),
@@ -148,6 +155,10 @@ pub fn mean_work(results: &[VertexResult]) -> Option<Work> {
         node_tests: mean(|result| result.node_tests),
         ..Work::default()
     })
+}
+
+fn is_non_finite(result: &VertexResult) -> bool {
+    result.state != VertexState::Failed && !result.at.is_finite()
 }
 
 /// Solutions of one pair follow each other.
@@ -281,6 +292,14 @@ mod tests {
         let two = [one[0], result(0, VertexState::Found, [10.0, 10.0])];
         assert_eq!(report(&two, &truth).recall, Some(1.0));
         assert_eq!(report(&two, &truth).searched, 1);
+    }
+
+    #[test]
+    fn an_answer_that_is_no_number_is_counted_and_not_found() {
+        let results = [result(0, VertexState::Found, [f32::NAN, 1.0])];
+        let report = report(&results, &[truth(REFLECTED, &[[1.0, 1.0]])]);
+        assert_eq!((report.non_finite, report.failed), (1, 0));
+        assert_eq!((report.recall, report.offset_px), (Some(0.0), None));
     }
 
     #[test]

@@ -1,8 +1,26 @@
-//! Exact reflection points.
+//! Exact reflection points of vertices, in f64, without a search over pixels.
+//!
+//! A point `R` of a mirror reflects vertex `V` to eye `O` where the bisector of the directions
+//! to both is the normal `N` of the reflecting side, and both lie in front: `N·(O−R) > 0` and
+//! `N·(V−R) > 0`. Occlusion plays no part here: neither by objects, nor by the mirror itself
+//! (the outside of a bowl may well hide its inside).
+//!
+//! - sphere and bowl: the roots of Alhazen's quartic, all of them ([`mod@sphere`]);
+//! - plane: the mirror image;
+//! - ellipsoid: the minimum of a convex function ([`mod@ellipsoid`]);
+//! - mesh: not available, for its interpolated normals belong to no surface.
+//!
+//! Regions are those of Estalella et al., "Accurate Interactive Specular Reflections on Curved
+//! Objects", VMV 2005, §6.1. World space throughout.
 
-use catoptric_frame::{Frame, TrueVertex, VertexClass};
+pub mod ellipsoid;
+mod quartic;
+pub mod sphere;
+
+use catoptric_frame::{Frame, Status, TrueVertex, VertexClass};
 use catoptric_scene::{Scene, Shape, View};
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 use crate::error::NotAvailable;
 
@@ -15,29 +33,118 @@ pub struct Solutions {
     pub points: Vec<DVec3>,
 }
 
+impl Solutions {
+    pub(crate) fn none(class: VertexClass) -> Self {
+        Self { class, points: Vec::new() }
+    }
+
+    /// `Reflected` in the points of the whole surface that an open mirror keeps; else
+    /// `Unreflected` if the whole surface has any, else `Hidden`.
+    pub(crate) fn within(whole: Vec<DVec3>, keep: impl Fn(&DVec3) -> bool) -> Self {
+        if whole.is_empty() {
+            return Self::none(VertexClass::Hidden);
+        }
+        let points: Vec<DVec3> = whole.into_iter().filter(keep).collect();
+        if points.is_empty() {
+            return Self::none(VertexClass::Unreflected);
+        }
+        Self { class: VertexClass::Reflected, points }
+    }
+}
+
 /// All points of the mirror at which `eye` sees `vertex` reflected, occlusion-free.
+///
+/// # Errors
+/// For mesh mirrors, and for an ellipsoid if the iteration does not get below its residual
+/// (an eye or a vertex on the surface).
 pub fn reflection_points(shape: &Shape, eye: DVec3, vertex: DVec3) -> Result<Solutions, NotAvailable> {
-    todo!("{shape:?} {eye} {vertex}")
+    match shape {
+        Shape::Sphere { center, radius } => Ok(sphere::outside(*center, *radius, eye, vertex)),
+        Shape::Bowl { center, radius, axis, half_angle } => {
+            Ok(sphere::inside(*center, *radius, *axis, *half_angle, eye, vertex))
+        }
+        Shape::Ellipsoid { center, radii, rotation } => {
+            ellipsoid::outside(*center, *radii, *rotation, eye, vertex)
+        }
+        Shape::Plane { center, normal, up, size } => {
+            let (eye_height, vertex_height) =
+                ((eye - center).dot(*normal), (vertex - center).dot(*normal));
+            if eye_height <= 0.0 || vertex_height <= 0.0 {
+                return Ok(Solutions::none(VertexClass::Hidden));
+            }
+            // Where the line from the eye to the mirror image crosses the plane.
+            let share = eye_height / (eye_height + vertex_height);
+            let foot = |point: DVec3, height: f64| point - height * normal;
+            let point = foot(eye, eye_height).lerp(foot(vertex, vertex_height), share);
+            let right = up.cross(*normal);
+            Ok(Solutions::within(vec![point], |point| {
+                let offset = point - center;
+                offset.dot(right).abs() <= size.x / 2.0 && offset.dot(*up).abs() <= size.y / 2.0
+            }))
+        }
+        Shape::Mesh(_) => Err(mesh()),
+    }
 }
 
 /// The exact answer for every (mirror, object vertex) pair: mirrors outer, then objects, then
-/// the objects' unique positions, all in scene order.
+/// the objects' unique positions, all in scene order. The answer for mirror `m`, object `o`,
+/// vertex `v` is at `m · scene.vertex_count()` + the positions of all objects before `o` + `v`.
+///
+/// # Errors
+/// If any mirror has none ([`reflection_points`]).
 pub fn true_vertices(scene: &Scene, view: &View) -> Result<Vec<TrueVertex>, NotAvailable> {
-    todo!("{} {view:?}", scene.name)
+    if scene.mirrors.iter().any(|mirror| !mirror.shape.is_analytic()) {
+        return Err(mesh());
+    }
+    let positions: Vec<DVec3> = scene
+        .objects
+        .iter()
+        .flat_map(|object| &object.mesh.positions)
+        .map(|position| position.as_dvec3())
+        .collect();
+    let (mirrors, count) = (&scene.mirrors, positions.len());
+    (0..mirrors.len() * count)
+        .into_par_iter()
+        .with_min_len(64)
+        .map(|index| {
+            let (mirror, vertex) = (&mirrors[index / count], positions[index % count]);
+            let solutions = reflection_points(&mirror.shape, view.eye, vertex)?;
+            let project = |point: DVec3| (point, view.project(point).map(|(at, _)| at));
+            Ok(TrueVertex {
+                class: solutions.class,
+                points: solutions.points.into_iter().map(project).collect(),
+            })
+        })
+        .collect()
 }
 
 /// Image coordinates of those solutions that lie in view: they project into the image, onto a
-/// pixel whose first surface is the reflecting side of that mirror.
+/// pixel whose first surface is the reflecting side of mirror `mirror_id`. None where the frame
+/// carries only colour.
 pub fn points_in_view<'a>(
     vertex: &'a TrueVertex,
     frame: &'a Frame,
     mirror_id: u32,
 ) -> impl Iterator<Item = DVec2> + 'a {
-    let _ = (frame, mirror_id);
-    vertex.points.iter().filter_map(|(_, at)| *at)
+    let [width, height] = frame.color.size();
+    vertex.points.iter().filter_map(|(_, at)| *at).filter(move |at| {
+        let inside = at.x >= 0.0
+            && at.y >= 0.0
+            && at.x < f64::from(width)
+            && at.y < f64::from(height);
+        let (Some(primary), true) = (&frame.primary, inside) else { return false };
+        let (x, y) = (at.x as u32, at.y as u32);
+        let back = |status: &Status| *status == Status::Back;
+        *primary.id.at(x, y) == mirror_id
+            && !frame.reflected.as_ref().is_some_and(|reflected| back(reflected.status.at(x, y)))
+    })
 }
 
 /// True where the vertex has at least one solution in view ([`points_in_view`]).
 pub fn in_view(vertex: &TrueVertex, frame: &Frame, mirror_id: u32) -> bool {
     points_in_view(vertex, frame, mirror_id).next().is_some()
+}
+
+fn mesh() -> NotAvailable {
+    NotAvailable("a mesh mirror has interpolated normals, which belong to no exact surface".into())
 }

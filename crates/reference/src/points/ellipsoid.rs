@@ -1,0 +1,146 @@
+//! The point of an ellipsoid, seen from outside, that reflects a vertex to an eye.
+//!
+//! By Fermat's principle the way from eye to mirror to vertex is stationary. The length of the
+//! way over a point is a convex function of that point, and the ellipsoid is a convex body: if
+//! the straight way misses the body, the shortest way touches it in exactly one point, where the
+//! bisector of the directions to eye and vertex is the outward normal, so that both are in
+//! front. If the straight way meets the body, no point reflects. So the vertex is hidden exactly
+//! if the straight way is blocked, and else its only reflection point is a minimum, found by a
+//! safeguarded Newton iteration on the unit sphere that the body is an affine image of.
+
+use catoptric_frame::VertexClass;
+use glam::{DMat2, DMat3, DVec2, DVec3};
+
+use super::Solutions;
+use crate::error::NotAvailable;
+
+/// A point is accepted if the sum of the unit vectors to eye and vertex has a component across
+/// the normal below this.
+const RESIDUAL: f64 = 1e-12;
+
+/// Solutions on an ellipsoid that reflects on its outside: one, or none where the straight way
+/// from eye to vertex is blocked.
+///
+/// # Errors
+/// If the iteration does not come below its residual: only where the way all but touches the
+/// surface, or eye or vertex all but lie on it.
+pub fn outside(
+    center: DVec3,
+    radii: DVec3,
+    rotation: DMat3,
+    eye: DVec3,
+    vertex: DVec3,
+) -> Result<Solutions, NotAvailable> {
+    let size = radii.max_element();
+    let local = |point: DVec3| rotation.transpose() * (point - center) / size;
+    let path = Path { radii: radii / size, eye: local(eye), vertex: local(vertex) };
+    let Some(start) = path.start() else {
+        return Ok(Solutions::none(VertexClass::Hidden));
+    };
+    let unit = path.minimize(start);
+    if path.residual(unit) > RESIDUAL {
+        return Err(NotAvailable(format!(
+            "no convergence on an ellipsoid for the vertex at {vertex}"
+        )));
+    }
+    let points = vec![center + rotation * (unit * radii)];
+    Ok(Solutions { class: VertexClass::Reflected, points })
+}
+
+/// Ways from an eye over a point of the ellipsoid to a vertex, in the ellipsoid's axes, its
+/// largest radius 1. Points are given as `radii · unit` with `|unit| = 1`.
+struct Path {
+    radii: DVec3,
+    eye: DVec3,
+    vertex: DVec3,
+}
+
+/// Length of a way, and its derivatives along the sphere of unit vectors.
+struct Local {
+    length: f64,
+    axes: [DVec3; 2],
+    gradient: DVec2,
+    /// Positive definite: where the true one may not be, it is made so.
+    hessian: DMat2,
+}
+
+impl Path {
+    /// The unit vector towards the point of the straight way that comes closest to the centre,
+    /// measured so that the body is a ball; `None` if the way meets the body.
+    fn start(&self) -> Option<DVec3> {
+        let (eye, vertex) = (self.eye / self.radii, self.vertex / self.radii);
+        let along = vertex - eye;
+        let length = along.length_squared();
+        let share = if length > 0.0 { (-eye.dot(along) / length).clamp(0.0, 1.0) } else { 0.0 };
+        let nearest = eye + share * along;
+        (nearest.length_squared() > 1.0).then(|| nearest.normalize())
+    }
+
+    /// Unit vectors from a point towards eye and vertex, and the distances.
+    fn legs(&self, unit: DVec3) -> [(DVec3, f64); 2] {
+        let point = self.radii * unit;
+        [self.eye, self.vertex].map(|end| {
+            let distance = end.distance(point);
+            ((end - point) / distance, distance)
+        })
+    }
+
+    fn residual(&self, unit: DVec3) -> f64 {
+        let [(to_eye, _), (to_vertex, _)] = self.legs(unit);
+        let sum = to_eye + to_vertex;
+        let normal = (unit / self.radii).normalize();
+        if sum.dot(normal) > 0.0 { sum.cross(normal).length() } else { f64::INFINITY }
+    }
+
+    fn at(&self, unit: DVec3) -> Local {
+        let legs = self.legs(unit);
+        let gradient = -self.radii * (legs[0].0 + legs[1].0);
+        let (x, y) = unit.any_orthonormal_pair();
+        let axes = [x, y];
+        let gradient_along = DVec2::new(gradient.dot(x), gradient.dot(y));
+        // Bending of the sphere itself: positive where moving outward shortens the way.
+        let bending = (-gradient.dot(unit)).max(1e-3 * gradient.length());
+        let second = |a: DVec3, b: DVec3| {
+            let (a, b) = (self.radii * a, self.radii * b);
+            legs.iter()
+                .map(|(towards, distance)| (a.dot(b) - a.dot(*towards) * b.dot(*towards)) / distance)
+                .sum::<f64>()
+        };
+        let mixed = second(x, y);
+        let hessian = DMat2::from_cols(
+            DVec2::new(second(x, x) + bending, mixed),
+            DVec2::new(mixed, second(y, y) + bending),
+        );
+        Local { length: legs[0].1 + legs[1].1, axes, gradient: gradient_along, hessian }
+    }
+
+    /// Newton steps, shortened until the way gets shorter; near the minimum, where lengths no
+    /// longer tell, until the gradient does.
+    fn minimize(&self, start: DVec3) -> DVec3 {
+        let mut unit = start;
+        let mut here = self.at(unit);
+        for _ in 0..200 {
+            let step = -(here.hessian.inverse() * here.gradient);
+            let descent = here.gradient.dot(step);
+            let mut share = (0.7 / step.length()).min(1.0);
+            let next = loop {
+                let moved = share * step;
+                let next = (unit + moved.x * here.axes[0] + moved.y * here.axes[1]).normalize();
+                let there = self.at(next);
+                let shorter = there.length <= here.length + 1e-4 * share * descent;
+                let flatter = there.gradient.length() < here.gradient.length();
+                let close = here.gradient.length() < 1e-6;
+                if (close && flatter) || (!close && shorter) {
+                    break Some((next, there));
+                }
+                share /= 2.0;
+                if share < 1e-12 {
+                    break None;
+                }
+            };
+            let Some((next, there)) = next else { break };
+            (unit, here) = (next, there);
+        }
+        unit
+    }
+}

@@ -104,10 +104,11 @@ pub fn vertex_report(
             discard.false_drop += 1;
         }
 
-        let answers = group
+        let found: Vec<DVec2> = group
             .iter()
-            .filter(|result| result.state != VertexState::Failed);
-        let found: Vec<DVec2> = answers.map(|result| result.at.as_dvec2()).collect();
+            .filter(|result| result.state != VertexState::Failed && result.at.is_finite())
+            .map(|result| result.at.as_dvec2())
+            .collect();
         solutions += in_view.len() as u64;
         recalled += in_view
             .iter()

@@ -9,10 +9,18 @@
 
 pub mod builtin;
 pub mod camera;
+mod document;
 mod error;
+mod file;
+mod geometry;
+mod hash;
 mod load;
 pub mod mesh;
 pub mod mirror;
+mod mtl;
+mod obj;
+mod random;
+mod shapes;
 mod surface;
 mod tessellate;
 

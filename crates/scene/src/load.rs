@@ -1,8 +1,9 @@
 //! From a name or a path to a complete scene.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::error::suggest;
+use crate::file::{Origin, read};
 use crate::{Scene, SceneError, builtin};
 
 /// How to load a scene.
@@ -10,14 +11,28 @@ use crate::{Scene, SceneError, builtin};
 pub struct LoadOptions {
     /// Folder of models that are not beside the scene file.
     pub models: Option<PathBuf>,
-    /// Replaces the scene file's resolution: width and height in pixels.
+    /// Replaces the scene file's resolution: width and height in pixels. Points that are
+    /// constructed backwards from image positions depend on it.
     pub resolution: Option<[u32; 2]>,
 }
 
 /// Loads a built-in scene by its name, or a scene file by its path (ending in `.toml`).
 pub fn open(name_or_path: &str, options: &LoadOptions) -> Result<Scene, SceneError> {
-    let _ = options;
-    let names = builtin::names();
-    let suggestion = suggest(name_or_path, names.iter().map(String::as_str));
-    Err(SceneError::Unknown { name: name_or_path.to_owned(), suggestion })
+    if let Some(text) = builtin::text(name_or_path) {
+        let file = &format!("{name_or_path}.toml");
+        return read(&text, &Origin { name: name_or_path, file, folder: None, options });
+    }
+    let path = Path::new(name_or_path);
+    if path.extension().is_none_or(|extension| extension != "toml") {
+        let names = builtin::names();
+        let suggestion = suggest(name_or_path, names.iter().map(String::as_str));
+        return Err(SceneError::Unknown { name: name_or_path.to_owned(), suggestion });
+    }
+    let text = std::fs::read_to_string(path).map_err(|error| SceneError::File {
+        file: name_or_path.to_owned(),
+        message: format!("cannot be read: {error}"),
+    })?;
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let folder = Some(path.parent().unwrap_or(Path::new("")).to_owned());
+    read(&text, &Origin { name: &stem, file: name_or_path, folder, options })
 }

@@ -1,0 +1,133 @@
+//! `[[mirror]]`.
+
+use glam::{DVec2, DVec3};
+
+use super::surface::{Surface, primitive, transform};
+use super::{Origin, name};
+use crate::document::{SMALLEST, Table};
+use crate::error::suggest;
+use crate::geometry::rotation;
+use crate::mesh::{Material, Mesh, Paint};
+use crate::{Mirror, SceneError, Shape};
+
+const SHAPES: [&str; 5] = ["sphere", "ellipsoid", "plane", "bowl", "teapot"];
+
+/// Reads a mirror, with its mesh if it is one.
+pub(super) fn mirror(table: &Table<'_>, origin: &Origin<'_>) -> Result<Mirror, SceneError> {
+    let name = name(table)?;
+    let tessellation = table.count("tessellation", 4..=2048)?.unwrap_or(128);
+    let mesh = table.string("mesh")?;
+    let shape = table.string("shape")?;
+    let shape = match (mesh, shape) {
+        (Some(_), Some(_)) => return Err(table.error("mesh", "and `shape` exclude each other")),
+        (Some(file), None) => {
+            let surface = Surface::Mesh { file: file.to_owned(), mtl: None };
+            Shape::Mesh(reflecting(table, origin, &surface)?)
+        }
+        (None, Some("sphere")) => sphere(table)?,
+        (None, Some("ellipsoid")) => ellipsoid(table)?,
+        (None, Some("plane")) => plane(table)?,
+        (None, Some("bowl")) => bowl(table)?,
+        (None, Some(shape @ ("torus" | "saddle"))) => {
+            return Err(table.error("shape", format_args!("`{shape}` is not yet supported for a mirror")));
+        }
+        (None, Some(shape)) => {
+            // A primitive that no exact mirror shares its name with is a mesh mirror.
+            let surface = if SHAPES.contains(&shape) { primitive(table, shape)? } else { None };
+            let Some(surface) = surface else {
+                let suggestion = suggest(shape, SHAPES);
+                let known = SHAPES.join(", ");
+                let message = format_args!("`{shape}` is unknown{suggestion}; known: {known}");
+                return Err(table.error("shape", message));
+            };
+            Shape::Mesh(reflecting(table, origin, &surface)?)
+        }
+        (None, None) => {
+            table.finish()?;
+            return Err(table.error_here("needs `shape` or `mesh`"));
+        }
+    };
+    Ok(Mirror { name, shape, tessellation })
+}
+
+fn center(table: &Table<'_>) -> Result<DVec3, SceneError> {
+    Ok(table.vector("center")?.unwrap_or(DVec3::ZERO))
+}
+
+fn sphere(table: &Table<'_>) -> Result<Shape, SceneError> {
+    let center = center(table)?;
+    let radius = table.positive("radius")?;
+    table.finish()?;
+    Ok(Shape::Sphere { center, radius: table.required("radius", radius)? })
+}
+
+fn ellipsoid(table: &Table<'_>) -> Result<Shape, SceneError> {
+    let center = center(table)?;
+    let radii = table.vector("radii")?;
+    let degrees = table.vector("rotate_deg")?.unwrap_or(DVec3::ZERO);
+    table.finish()?;
+    let radii = table.required("radii", radii)?;
+    if radii.min_element() < SMALLEST {
+        return Err(table.error("radii", "must be positive"));
+    }
+    Ok(Shape::Ellipsoid { center, radii, rotation: rotation(degrees) })
+}
+
+fn plane(table: &Table<'_>) -> Result<Shape, SceneError> {
+    let center = center(table)?;
+    let normal = table.direction("normal")?;
+    let up = table.direction("up")?.unwrap_or(DVec3::Y);
+    let size = table.numbers::<2>("size")?;
+    table.finish()?;
+    let normal = table.required("normal", normal)?;
+    let size = DVec2::from(table.required("size", size)?);
+    if size.min_element() < SMALLEST {
+        return Err(table.error("size", "must be positive: the mirror has no area"));
+    }
+    let up = up - up.dot(normal) * normal;
+    if up.length() < 1e-6 {
+        return Err(table.error("up", "must not be parallel to `normal`"));
+    }
+    Ok(Shape::Plane { center, normal, up: up.normalize(), size })
+}
+
+fn bowl(table: &Table<'_>) -> Result<Shape, SceneError> {
+    let center = center(table)?;
+    let radius = table.positive("radius")?;
+    let axis = table.direction("axis")?;
+    let degrees = table.number("half_angle_deg")?;
+    table.finish()?;
+    let radius = table.required("radius", radius)?;
+    let axis = table.required("axis", axis)?;
+    let degrees = table.required("half_angle_deg", degrees)?;
+    if !(1e-3..180.0).contains(&degrees) {
+        let message = format_args!("must be between 0 and 180 degrees, not {degrees}");
+        return Err(table.error("half_angle_deg", message));
+    }
+    Ok(Shape::Bowl { center, radius, axis, half_angle: degrees.to_radians() })
+}
+
+/// A mesh with shading normals: its own, or smooth ones.
+fn reflecting(
+    table: &Table<'_>,
+    origin: &Origin<'_>,
+    surface: &Surface,
+) -> Result<Mesh, SceneError> {
+    let transform = transform(table)?;
+    table.finish()?;
+    let mut geometry = surface.geometry(table, origin, true)?;
+    let paint = Paint::Color(glam::Vec3::ZERO);
+    geometry.materials = vec![Material { name: "mirror".to_owned(), paint }];
+    geometry.material.clear();
+    geometry.uvs.clear();
+    geometry.colors.clear();
+    let mut mesh = geometry.into_mesh(&transform).map_err(|message| table.error_here(message))?;
+    if mesh.triangles.is_empty() {
+        return Err(table.error_here("the mesh is empty: no triangle with area"));
+    }
+    if mesh.normals.is_empty() {
+        mesh.smooth_normals();
+    }
+    mesh.wind_by_normals();
+    Ok(mesh)
+}

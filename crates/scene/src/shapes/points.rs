@@ -1,0 +1,72 @@
+//! Points whose reflection point is known, because they were made from it.
+
+use glam::{DVec2, DVec3};
+
+use crate::camera::Camera;
+use crate::mirror::{Mirror, SurfaceHit};
+use crate::random::Random;
+
+/// How to construct points backwards from the image.
+pub(crate) struct Inverse {
+    pub count: u32,
+    pub seed: u64,
+    /// Least and largest distance from the mirror point, log-uniform between.
+    pub distance: [f64; 2],
+}
+
+/// Points on reflected eye rays: a random image position on a pixel of mirror `which`, the mirror
+/// point there, and a random distance along the reflected ray, short of its next meeting with the
+/// same mirror. The image positions depend on the camera's resolution.
+pub(crate) fn inverse_points(
+    inverse: &Inverse,
+    camera: &Camera,
+    mirrors: &[Mirror],
+    which: usize,
+) -> Result<Vec<DVec3>, String> {
+    let view = camera.view(camera.resolution);
+    let first_hit = |at: DVec2| -> Option<(SurfaceHit, DVec3)> {
+        let dir = view.ray(at);
+        let hits = mirrors.iter().enumerate().filter_map(|(index, mirror)| {
+            mirror.shape.intersect(view.eye, dir, 0.0).map(|hit| (index, hit))
+        });
+        let (index, hit) = hits.min_by(|a, b| a.1.t.total_cmp(&b.1.t))?;
+        (index == which && dir.dot(hit.normal) < 0.0).then_some((hit, dir))
+    };
+
+    let [width, height] = camera.resolution;
+    let mut pixels = Vec::new();
+    for j in 0..height {
+        for i in 0..width {
+            let corner = DVec2::new(f64::from(i), f64::from(j));
+            if first_hit(corner + 0.5).is_some() {
+                pixels.push(corner);
+            }
+        }
+    }
+    if pixels.is_empty() {
+        return Err(format!("mirror \"{}\" covers no pixel", mirrors[which].name));
+    }
+
+    let mut random = Random::new(inverse.seed);
+    let [least, largest] = inverse.distance.map(f64::ln);
+    let mut points = Vec::new();
+    // Near a rim or deep in a bowl most tries may fail, but not nearly all of them.
+    for _ in 0..u64::from(inverse.count) * 1000 {
+        if points.len() == inverse.count as usize {
+            break;
+        }
+        let pixel = pixels[random.below(pixels.len())];
+        let at = pixel + DVec2::new(random.unit(), random.unit());
+        let t = (least + (largest - least) * random.unit()).exp();
+        let Some((hit, dir)) = first_hit(at) else { continue };
+        let reflected = (dir - 2.0 * dir.dot(hit.normal) * hit.normal).normalize();
+        let again = mirrors[which].shape.intersect(hit.position, reflected, 1e-9 * hit.t);
+        if again.is_none_or(|again| again.t > t) {
+            points.push(hit.position + t * reflected);
+        }
+    }
+    if points.len() < inverse.count as usize {
+        return Err("distances leave too little room before the mirror is met again".to_owned());
+    }
+    Ok(points)
+}

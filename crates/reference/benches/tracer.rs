@@ -8,7 +8,9 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use catoptric_reference::{Tracer, Truth, reflection_points};
-use catoptric_scene::{Background, Camera, Fov, Material, Mesh, Mirror, Object, Paint, Scene, Shape};
+use catoptric_scene::{
+    Background, Camera, Fov, Material, Mesh, Mirror, Object, Paint, Scene, Shape,
+};
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use glam::{DMat3, DVec2, DVec3, Vec3};
 use rayon::prelude::*;
@@ -20,14 +22,36 @@ fn balls() -> Scene {
         let around = 2.0 * PI * f64::from(index) / 25.0;
         let height = f64::from(index % 5) - 2.0;
         let center = DVec3::new(2.6 * around.cos(), height, 2.6 * around.sin());
-        let Mesh { positions, triangles, .. } =
-            Shape::Sphere { center, radius: 0.45 }.tessellate(64);
+        let Mesh {
+            positions,
+            triangles,
+            ..
+        } = Shape::Sphere {
+            center,
+            radius: 0.45,
+        }
+        .tessellate(64);
         let name = format!("ball {index}");
-        let materials = vec![Material { name: name.clone(), paint: Paint::Color(Vec3::ONE) }];
+        let materials = vec![Material {
+            name: name.clone(),
+            paint: Paint::Color(Vec3::ONE),
+        }];
         let material = vec![0; triangles.len()];
-        Object { name, mesh: Mesh { positions, triangles, material, materials, ..Mesh::default() } }
+        Object {
+            name,
+            mesh: Mesh {
+                positions,
+                triangles,
+                material,
+                materials,
+                ..Mesh::default()
+            },
+        }
     });
-    let shape = Shape::Sphere { center: DVec3::ZERO, radius: 1.5 };
+    let shape = Shape::Sphere {
+        center: DVec3::ZERO,
+        radius: 1.5,
+    };
     Scene {
         name: "balls".into(),
         why: "A load for benchmarks.".into(),
@@ -40,14 +64,24 @@ fn balls() -> Scene {
         },
         background: Background::Color(Vec3::ZERO),
         objects: objects.collect(),
-        mirrors: vec![Mirror { name: "mirror".into(), shape, tessellation: 64 }],
+        mirrors: vec![Mirror {
+            name: "mirror".into(),
+            shape,
+            tessellation: 64,
+        }],
         hash: String::new(),
     }
 }
 
-fn short<'a>(criterion: &'a mut Criterion, name: &str) -> BenchmarkGroup<'a, criterion::measurement::WallTime> {
+fn short<'a>(
+    criterion: &'a mut Criterion,
+    name: &str,
+) -> BenchmarkGroup<'a, criterion::measurement::WallTime> {
     let mut group = criterion.benchmark_group(name);
-    group.sample_size(10).warm_up_time(Duration::from_millis(500)).measurement_time(Duration::from_secs(2));
+    group
+        .sample_size(10)
+        .warm_up_time(Duration::from_millis(500))
+        .measurement_time(Duration::from_secs(2));
     group
 }
 
@@ -55,7 +89,9 @@ fn build(criterion: &mut Criterion) {
     let scene = balls();
     let mut group = short(criterion, "hierarchy");
     group.throughput(Throughput::Elements(scene.triangle_count() as u64));
-    group.bench_function("build", |bencher| bencher.iter(|| Tracer::new(black_box(&scene))));
+    group.bench_function("build", |bencher| {
+        bencher.iter(|| Tracer::new(black_box(&scene)))
+    });
     group.finish();
 }
 
@@ -68,7 +104,10 @@ fn rays(criterion: &mut Criterion) {
         .map(|(x, y)| DVec2::new(f64::from(x), f64::from(y)) + 0.5)
         .map(|at| tracer.reflect_pixel(&view, at, Truth::FirstBounce))
         .collect();
-    let primary: Vec<_> = traces.iter().map(|trace| (view.eye, trace.direction)).collect();
+    let primary: Vec<_> = traces
+        .iter()
+        .map(|trace| (view.eye, trace.direction))
+        .collect();
     let reflected: Vec<_> = traces
         .iter()
         .filter_map(|trace| Some((trace.primary?.position, trace.reflection?.direction)))
@@ -101,11 +140,29 @@ fn vertices(criterion: &mut Criterion) {
         .collect();
     let center = DVec3::ZERO;
     let shapes = [
-        ("sphere", Shape::Sphere { center, radius: 1.5 }),
-        ("bowl", Shape::Bowl { center, radius: 5.0, axis: DVec3::NEG_Z, half_angle: PI / 3.0 }),
+        (
+            "sphere",
+            Shape::Sphere {
+                center,
+                radius: 1.5,
+            },
+        ),
+        (
+            "bowl",
+            Shape::Bowl {
+                center,
+                radius: 5.0,
+                axis: DVec3::NEG_Z,
+                half_angle: PI / 3.0,
+            },
+        ),
         (
             "ellipsoid",
-            Shape::Ellipsoid { center, radii: DVec3::new(1.5, 0.7, 1.0), rotation: DMat3::IDENTITY },
+            Shape::Ellipsoid {
+                center,
+                radii: DVec3::new(1.5, 0.7, 1.0),
+                rotation: DMat3::IDENTITY,
+            },
         ),
     ];
     let mut group = short(criterion, "reflection points");

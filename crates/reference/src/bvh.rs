@@ -73,8 +73,17 @@ impl TriangleBvh {
             build_bvh2(&boxes, BvhBuildParams::medium_build(), &mut elapsed)
         };
         let original = bvh.primitive_indices.clone();
-        let corners = original.iter().map(|index| triangles[*index as usize]).collect();
-        Self { bvh, corners, original, center, radius }
+        let corners = original
+            .iter()
+            .map(|index| triangles[*index as usize])
+            .collect();
+        Self {
+            bvh,
+            corners,
+            original,
+            center,
+            radius,
+        }
     }
 
     /// Half the diagonal of the bounding box of all triangles.
@@ -84,7 +93,13 @@ impl TriangleBvh {
 
     /// Nearest triangle with `t_min < t < t_max` along the ray (`dir` of unit length), whichever
     /// way it faces.
-    pub fn intersect(&self, origin: DVec3, dir: DVec3, t_min: f64, t_max: f64) -> Option<TriangleHit> {
+    pub fn intersect(
+        &self,
+        origin: DVec3,
+        dir: DVec3,
+        t_min: f64,
+        t_max: f64,
+    ) -> Option<TriangleHit> {
         if self.original.is_empty() {
             return None;
         }
@@ -227,7 +242,11 @@ mod tests {
 
     #[test]
     fn limits_are_respected() {
-        let triangle = [DVec3::NEG_ONE, DVec3::new(1.0, -1.0, -1.0), DVec3::new(0.0, 1.0, -1.0)];
+        let triangle = [
+            DVec3::NEG_ONE,
+            DVec3::new(1.0, -1.0, -1.0),
+            DVec3::new(0.0, 1.0, -1.0),
+        ];
         let bvh = TriangleBvh::new(&[triangle]);
         let hit = |t_min, t_max| bvh.intersect(DVec3::ZERO, DVec3::NEG_Z, t_min, t_max);
         assert_eq!(hit(0.0, 2.0).map(|hit| hit.t), Some(1.0));
@@ -235,6 +254,10 @@ mod tests {
         assert!(hit(0.0, 1.0).is_none());
         assert!(hit(0.0, 0.5).is_none());
         assert!(bvh.intersect(DVec3::ZERO, DVec3::Z, 0.0, 2.0).is_none());
-        assert!(TriangleBvh::new(&[]).intersect(DVec3::ZERO, DVec3::Z, 0.0, 2.0).is_none());
+        assert!(
+            TriangleBvh::new(&[])
+                .intersect(DVec3::ZERO, DVec3::Z, 0.0, 2.0)
+                .is_none()
+        );
     }
 }

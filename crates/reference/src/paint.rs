@@ -8,14 +8,20 @@ use glam::{DVec2, DVec3, Vec3};
 pub(crate) fn surface(mesh: &Mesh, triangle: usize, barycentric: DVec3) -> Vec3 {
     let uv = || {
         mesh.uvs.get(triangle).map_or(DVec2::ZERO, |[a, b, c]| {
-            a.as_dvec2() * barycentric.x + b.as_dvec2() * barycentric.y + c.as_dvec2() * barycentric.z
+            a.as_dvec2() * barycentric.x
+                + b.as_dvec2() * barycentric.y
+                + c.as_dvec2() * barycentric.z
         })
     };
     match &mesh.materials[mesh.material[triangle] as usize].paint {
         Paint::Color(color) => *color,
         Paint::Checker { a, b, cells } => {
             let cell = (uv() * f64::from(*cells)).floor();
-            if (cell.x + cell.y).rem_euclid(2.0) == 0.0 { *a } else { *b }
+            if (cell.x + cell.y).rem_euclid(2.0) == 0.0 {
+                *a
+            } else {
+                *b
+            }
         }
         Paint::Texture { tint, image } => *tint * bilinear(image, uv()),
         Paint::Vertex => {
@@ -46,10 +52,17 @@ fn bilinear(image: &Texture, uv: DVec2) -> Vec3 {
 pub(crate) fn background(background: &Background, dir: DVec3) -> Vec3 {
     match background {
         Background::Color(color) => *color,
-        Background::Gradient { zenith, horizon, nadir } => {
+        Background::Gradient {
+            zenith,
+            horizon,
+            nadir,
+        } => {
             let towards = if dir.y >= 0.0 { zenith } else { nadir };
             let height = dir.y.abs().min(1.0);
-            horizon.as_dvec3().lerp(towards.as_dvec3(), height).as_vec3()
+            horizon
+                .as_dvec3()
+                .lerp(towards.as_dvec3(), height)
+                .as_vec3()
         }
     }
 }
@@ -65,7 +78,11 @@ mod tests {
 
     /// Two by two texels: black and red above, green and blue below.
     fn picture() -> Texture {
-        Texture { width: 2, height: 2, texels: vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z] }
+        Texture {
+            width: 2,
+            height: 2,
+            texels: vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z],
+        }
     }
 
     fn painted(paint: Paint, uvs: [Vec2; 3]) -> Mesh {
@@ -75,7 +92,10 @@ mod tests {
             uvs: vec![uvs],
             colors: vec![[Vec3::X, Vec3::Y, Vec3::Z]],
             material: vec![0],
-            materials: vec![Material { name: "paint".into(), paint }],
+            materials: vec![Material {
+                name: "paint".into(),
+                paint,
+            }],
             ..Mesh::default()
         }
     }
@@ -99,7 +119,12 @@ mod tests {
     fn between_texels_colours_mix_across_the_border_too() {
         let picture = picture();
         let all = vec3(0.25, 0.25, 0.25);
-        for uv in [DVec2::splat(0.5), DVec2::ZERO, DVec2::ONE, DVec2::new(0.5, 1.0)] {
+        for uv in [
+            DVec2::splat(0.5),
+            DVec2::ZERO,
+            DVec2::ONE,
+            DVec2::new(0.5, 1.0),
+        ] {
             assert_eq!(bilinear(&picture, uv), all, "at {uv}");
         }
         assert_eq!(bilinear(&picture, DVec2::new(0.5, 0.75)), Vec3::X / 2.0);
@@ -110,17 +135,30 @@ mod tests {
     #[test]
     fn textures_are_tinted_and_follow_the_corners() {
         let image = Arc::new(picture());
-        let paint = Paint::Texture { tint: vec3(0.5, 0.5, 0.5), image };
-        let mesh = painted(paint, [vec2(0.25, 0.25), vec2(0.75, 0.25), vec2(0.25, 0.75)]);
+        let paint = Paint::Texture {
+            tint: vec3(0.5, 0.5, 0.5),
+            image,
+        };
+        let mesh = painted(
+            paint,
+            [vec2(0.25, 0.25), vec2(0.75, 0.25), vec2(0.25, 0.75)],
+        );
         assert_eq!(surface(&mesh, 0, DVec3::X), Vec3::Y / 2.0);
         assert_eq!(surface(&mesh, 0, DVec3::Y), Vec3::Z / 2.0);
         assert_eq!(surface(&mesh, 0, DVec3::Z), Vec3::ZERO);
-        assert_eq!(surface(&mesh, 0, DVec3::new(0.5, 0.5, 0.0)), (Vec3::Y + Vec3::Z) / 4.0);
+        assert_eq!(
+            surface(&mesh, 0, DVec3::new(0.5, 0.5, 0.0)),
+            (Vec3::Y + Vec3::Z) / 4.0
+        );
     }
 
     #[test]
     fn checker_alternates_and_reaches_below_zero() {
-        let paint = Paint::Checker { a: Vec3::X, b: Vec3::Y, cells: 4 };
+        let paint = Paint::Checker {
+            a: Vec3::X,
+            b: Vec3::Y,
+            cells: 4,
+        };
         let mesh = painted(paint, [vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(0.0, -1.0)]);
         let at = |u: f64, v: f64| surface(&mesh, 0, DVec3::new(1.0 - u - v, u, v));
         assert_eq!(at(0.1, 0.0), Vec3::X);
@@ -138,7 +176,11 @@ mod tests {
 
     #[test]
     fn gradient_is_linear_in_height() {
-        let gradient = Background::Gradient { zenith: Vec3::X, horizon: Vec3::Y, nadir: Vec3::Z };
+        let gradient = Background::Gradient {
+            zenith: Vec3::X,
+            horizon: Vec3::Y,
+            nadir: Vec3::Z,
+        };
         assert_eq!(background(&gradient, DVec3::Y), Vec3::X);
         assert_eq!(background(&gradient, DVec3::X), Vec3::Y);
         assert_eq!(background(&gradient, DVec3::NEG_Y), Vec3::Z);

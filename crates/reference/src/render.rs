@@ -46,7 +46,12 @@ pub struct RenderOptions<'a> {
 impl RenderOptions<'_> {
     /// Pixel centres, silently.
     pub fn new(size: [u32; 2], truth: Truth) -> Self {
-        Self { size, truth, samples: 1, progress: None }
+        Self {
+            size,
+            truth,
+            samples: 1,
+            progress: None,
+        }
     }
 }
 
@@ -86,8 +91,9 @@ impl Tracer {
         let pixels: Vec<Pixel> = (0..height)
             .into_par_iter()
             .flat_map_iter(|y| {
-                let row: Vec<Pixel> =
-                    (0..width).map(|x| self.pixel(&view, x, y, options)).collect();
+                let row: Vec<Pixel> = (0..width)
+                    .map(|x| self.pixel(&view, x, y, options))
+                    .collect();
                 if let Some(progress) = options.progress {
                     progress(finished.fetch_add(1, Ordering::Relaxed) + 1, height);
                 }
@@ -111,7 +117,9 @@ impl Tracer {
                 bounces: matches!(options.truth, Truth::Full { .. })
                     .then(|| pixels.map(|pixel| pixel.bounces)),
             }),
-            names: names.map(|(id, name, mirror)| Name { id, name, mirror }).collect(),
+            names: names
+                .map(|(id, name, mirror)| Name { id, name, mirror })
+                .collect(),
         }
     }
 
@@ -129,13 +137,26 @@ impl Tracer {
                 }
             },
         };
-        PixelTrace { direction, primary, reflection, color }
+        PixelTrace {
+            direction,
+            primary,
+            reflection,
+            color,
+        }
     }
 
     /// Follows a ray in direction `dir` that has met a mirror, to its end.
     fn follow(&self, dir: DVec3, mirror: Hit, front: bool, truth: Truth) -> (Reflection, Vec3) {
         let black = |status, direction, hit, bounces| {
-            (Reflection { status, direction, hit, bounces }, Vec3::ZERO)
+            (
+                Reflection {
+                    status,
+                    direction,
+                    hit,
+                    bounces,
+                },
+                Vec3::ZERO,
+            )
         };
         if !front {
             return black(Status::Back, DVec3::ZERO, None, 0);
@@ -163,12 +184,22 @@ impl Tracer {
                 }
                 Some((hit, Surface::Object { .. })) => {
                     let status = Status::Resolved;
-                    let reflection = Reflection { status, direction: first, hit: Some(hit), bounces };
+                    let reflection = Reflection {
+                        status,
+                        direction: first,
+                        hit: Some(hit),
+                        bounces,
+                    };
                     return (reflection, self.color(&hit));
                 }
                 None => {
                     let status = Status::Resolved;
-                    let reflection = Reflection { status, direction: first, hit: None, bounces };
+                    let reflection = Reflection {
+                        status,
+                        direction: first,
+                        hit: None,
+                        bounces,
+                    };
                     return (reflection, self.background(reflected));
                 }
             }
@@ -179,7 +210,10 @@ impl Tracer {
     fn pixel(&self, view: &View, x: u32, y: u32, options: &RenderOptions) -> Pixel {
         let corner = DVec2::new(f64::from(x), f64::from(y));
         let trace = self.reflect_pixel(view, corner + 0.5, options.truth);
-        let mut pixel = Pixel { color: trace.color, ..Pixel::default() };
+        let mut pixel = Pixel {
+            color: trace.color,
+            ..Pixel::default()
+        };
         if options.samples > 1 {
             let n = options.samples;
             let mut sum = DVec3::ZERO;

@@ -102,7 +102,12 @@ impl Tracer {
         for mirror in &scene.mirrors {
             if let Shape::Mesh(mesh) = &mirror.shape {
                 check(&mirror.name, mesh)?;
-                check_count(&mirror.name, "normals", mesh.normals.len(), mesh.triangles.len())?;
+                check_count(
+                    &mirror.name,
+                    "normals",
+                    mesh.normals.len(),
+                    mesh.triangles.len(),
+                )?;
             }
         }
         let objects = Triangles::new(scene.objects.iter().map(|object| Some(&object.mesh)));
@@ -110,13 +115,24 @@ impl Tracer {
             Shape::Mesh(mesh) => Some(mesh),
             _ => None,
         }));
-        let object_extents = scene.objects.iter().filter_map(|object| object.mesh.bounds());
-        let mirror_extents = scene.mirrors.iter().map(|mirror| reach(mirror.shape.bounds()));
+        let object_extents = scene
+            .objects
+            .iter()
+            .filter_map(|object| object.mesh.bounds());
+        let mirror_extents = scene
+            .mirrors
+            .iter()
+            .map(|mirror| reach(mirror.shape.bounds()));
         let extent = object_extents
             .map(|(low, high)| reach((low.as_dvec3(), high.as_dvec3())))
             .chain(mirror_extents)
             .fold(0.0, f64::max);
-        Ok(Self { scene: scene.clone(), objects, mesh_mirrors, extent })
+        Ok(Self {
+            scene: scene.clone(),
+            objects,
+            mesh_mirrors,
+            extent,
+        })
     }
 
     /// The scene traced.
@@ -126,12 +142,28 @@ impl Tracer {
 
     /// Nearest object or mirror along the ray (`dir` of unit length).
     pub fn trace(&self, origin: DVec3, dir: DVec3) -> Option<Hit> {
-        self.nearest(&Start { origin, t_min: 0.0, mirrors: true, leaving: None }, dir)
+        self.nearest(
+            &Start {
+                origin,
+                t_min: 0.0,
+                mirrors: true,
+                leaving: None,
+            },
+            dir,
+        )
     }
 
     /// Nearest object along the ray (`dir` of unit length); mirrors are not seen.
     pub fn trace_objects(&self, origin: DVec3, dir: DVec3) -> Option<Hit> {
-        self.nearest(&Start { origin, t_min: 0.0, mirrors: false, leaving: None }, dir)
+        self.nearest(
+            &Start {
+                origin,
+                t_min: 0.0,
+                mirrors: false,
+                leaving: None,
+            },
+            dir,
+        )
     }
 
     /// What a ray in direction `dir` meets that leaves a mirror at `from`: objects, and mirrors
@@ -140,7 +172,12 @@ impl Tracer {
         let nudge = self.extent * NUDGE;
         let start = match from.surface {
             Surface::Mirror { index, .. } if self.scene.mirrors[index].shape.is_analytic() => {
-                Start { origin: from.position, t_min: nudge, mirrors, leaving: Some(index) }
+                Start {
+                    origin: from.position,
+                    t_min: nudge,
+                    mirrors,
+                    leaving: Some(index),
+                }
             }
             _ => Start {
                 origin: from.position + nudge * from.geometric,
@@ -155,9 +192,11 @@ impl Tracer {
     /// Colour of an object's surface at a hit; black for mirrors.
     pub fn color(&self, hit: &Hit) -> Vec3 {
         match hit.surface {
-            Surface::Object { index, triangle, barycentric } => {
-                paint::surface(&self.scene.objects[index].mesh, triangle, barycentric)
-            }
+            Surface::Object {
+                index,
+                triangle,
+                barycentric,
+            } => paint::surface(&self.scene.objects[index].mesh, triangle, barycentric),
             Surface::Mirror { .. } => Vec3::ZERO,
         }
     }
@@ -168,13 +207,19 @@ impl Tracer {
     }
 
     fn nearest(&self, start: &Start, dir: DVec3) -> Option<Hit> {
-        let object = self.objects.bvh.intersect(start.origin, dir, start.t_min, f64::INFINITY);
+        let object = self
+            .objects
+            .bvh
+            .intersect(start.origin, dir, start.t_min, f64::INFINITY);
         if !start.mirrors {
             return object.map(|hit| self.object_hit(&hit, dir));
         }
         // A mirror as far away as an object wins.
         let t_max = object.map_or(f64::INFINITY, |hit| hit.t.next_up());
-        let mesh = self.mesh_mirrors.bvh.intersect(start.origin, dir, start.t_min, t_max);
+        let mesh = self
+            .mesh_mirrors
+            .bvh
+            .intersect(start.origin, dir, start.t_min, t_max);
         let mut analytic: Option<Hit> = None;
         for (index, mirror) in self.scene.mirrors.iter().enumerate() {
             let t_min = match (&mirror.shape, start.leaving == Some(index)) {
@@ -183,8 +228,13 @@ impl Tracer {
                 (shape, true) => start.t_min.max(BOWL_NUDGE * reach(shape.bounds())),
                 (_, false) => start.t_min,
             };
-            let limit = analytic.map(|hit| hit.t).or(mesh.map(|hit| hit.t)).unwrap_or(t_max);
-            let Some(hit) = mirror.shape.intersect(start.origin, dir, t_min) else { continue };
+            let limit = analytic
+                .map(|hit| hit.t)
+                .or(mesh.map(|hit| hit.t))
+                .unwrap_or(t_max);
+            let Some(hit) = mirror.shape.intersect(start.origin, dir, t_min) else {
+                continue;
+            };
             if hit.t < limit {
                 let front = dir.dot(hit.normal) < 0.0;
                 analytic = Some(Hit {
@@ -206,14 +256,22 @@ impl Tracer {
         let (index, triangle) = self.objects.owner(hit);
         let corners = corners(&self.scene.objects[index].mesh, triangle);
         let facing = geometric_normal(&corners);
-        let normal = if facing.dot(dir) > 0.0 { -facing } else { facing };
+        let normal = if facing.dot(dir) > 0.0 {
+            -facing
+        } else {
+            facing
+        };
         Hit {
             id: self.scene.object_id(index),
             t: hit.t,
             position: mix(&corners, hit.barycentric),
             normal,
             geometric: normal,
-            surface: Surface::Object { index, triangle, barycentric: hit.barycentric },
+            surface: Surface::Object {
+                index,
+                triangle,
+                barycentric: hit.barycentric,
+            },
         }
     }
 
@@ -226,14 +284,21 @@ impl Tracer {
         let facing = geometric_normal(&corners);
         let shading = mix(&mesh.normals[triangle].map(Vec3::as_dvec3), hit.barycentric);
         let normal = shading.try_normalize().unwrap_or(facing);
-        let geometric = if facing.dot(normal) < 0.0 { -facing } else { facing };
+        let geometric = if facing.dot(normal) < 0.0 {
+            -facing
+        } else {
+            facing
+        };
         Hit {
             id: self.scene.mirror_id(index),
             t: hit.t,
             position: mix(&corners, hit.barycentric),
             normal,
             geometric,
-            surface: Surface::Mirror { index, front: geometric.dot(dir) < 0.0 },
+            surface: Surface::Mirror {
+                index,
+                front: geometric.dot(dir) < 0.0,
+            },
         }
     }
 }
@@ -254,7 +319,10 @@ impl Triangles {
                 }
             }
         }
-        Self { bvh: TriangleBvh::new(&all), owners }
+        Self {
+            bvh: TriangleBvh::new(&all),
+            owners,
+        }
     }
 
     fn owner(&self, hit: &TriangleHit) -> (usize, usize) {
@@ -281,15 +349,25 @@ fn reach((low, high): (DVec3, DVec3)) -> f64 {
 }
 
 fn check(surface: &str, mesh: &Mesh) -> Result<(), ReferenceError> {
-    if let Some(index) = mesh.positions.iter().position(|position| !position.is_finite()) {
-        return Err(ReferenceError::NotFinite { surface: surface.to_owned(), index });
+    if let Some(index) = mesh
+        .positions
+        .iter()
+        .position(|position| !position.is_finite())
+    {
+        return Err(ReferenceError::NotFinite {
+            surface: surface.to_owned(),
+            index,
+        });
     }
     for (triangle, corners) in mesh.triangles.iter().enumerate() {
         for index in *corners {
             check_index(surface, triangle, "position", index, mesh.positions.len())?;
         }
     }
-    for (what, found) in [("normals", mesh.normals.len()), ("texture coordinates", mesh.uvs.len())] {
+    for (what, found) in [
+        ("normals", mesh.normals.len()),
+        ("texture coordinates", mesh.uvs.len()),
+    ] {
         if found != 0 {
             check_count(surface, what, found, mesh.triangles.len())?;
         }
@@ -321,7 +399,12 @@ fn check_count(
     if found == triangles {
         return Ok(());
     }
-    Err(ReferenceError::Attribute { surface: surface.to_owned(), what, found, triangles })
+    Err(ReferenceError::Attribute {
+        surface: surface.to_owned(),
+        what,
+        found,
+        triangles,
+    })
 }
 
 fn check_index(
@@ -334,5 +417,11 @@ fn check_index(
     if (index as usize) < count {
         return Ok(());
     }
-    Err(ReferenceError::Index { surface: surface.to_owned(), triangle, what, index, count })
+    Err(ReferenceError::Index {
+        surface: surface.to_owned(),
+        triangle,
+        what,
+        index,
+        count,
+    })
 }

@@ -6,7 +6,8 @@ use std::f64::consts::PI;
 
 use catoptric_frame::VertexClass;
 use catoptric_reference::{
-    RenderOptions, Solutions, Tracer, Truth, in_view, points_in_view, reflection_points, true_vertices,
+    RenderOptions, Solutions, Tracer, Truth, in_view, points_in_view, reflection_points,
+    true_vertices,
 };
 use catoptric_scene::{Camera, Mesh, Shape};
 use common::*;
@@ -33,12 +34,21 @@ fn construct(random: &mut Random, camera: &Camera, shape: &Shape) -> Option<Cons
     }
     let reflected = dir - 2.0 * cosine * hit.normal;
     let blocked = !shape.is_convex()
-        && shape.intersect(hit.position, reflected, 1e-9).is_some_and(|second| second.t <= t);
-    (!blocked).then(|| Constructed { at: hit.position, vertex: hit.position + t * reflected })
+        && shape
+            .intersect(hit.position, reflected, 1e-9)
+            .is_some_and(|second| second.t <= t);
+    (!blocked).then(|| Constructed {
+        at: hit.position,
+        vertex: hit.position + t * reflected,
+    })
 }
 
 fn nearest(solutions: &Solutions, at: DVec3) -> f64 {
-    solutions.points.iter().map(|point| point.distance(at)).fold(f64::INFINITY, f64::min)
+    solutions
+        .points
+        .iter()
+        .map(|point| point.distance(at))
+        .fold(f64::INFINITY, f64::min)
 }
 
 /// Half the angle's sine between bisector and normal, and both sides' visibility.
@@ -52,14 +62,24 @@ fn is_reflection(shape: &Shape, eye: DVec3, vertex: DVec3, at: DVec3) -> bool {
 #[test]
 fn convex_mirrors_have_exactly_the_constructed_point() {
     let cases = [
-        (unit_sphere(), camera([0.6, 0.5, 4.0], 34.0, [512, 512]), 1e-12),
-        (prototype_ellipsoid(), camera([1.2, 0.8, 4.5], 42.0, [512, 512]), 1e-10),
+        (
+            unit_sphere(),
+            camera([0.6, 0.5, 4.0], 34.0, [512, 512]),
+            1e-12,
+        ),
+        (
+            prototype_ellipsoid(),
+            camera([1.2, 0.8, 4.5], 42.0, [512, 512]),
+            1e-10,
+        ),
     ];
     for (shape, camera, limit) in cases {
         let mut random = Random(7);
         let (mut worst, mut count) = (0.0f64, 0);
         while count < 20_000 {
-            let Some(known) = construct(&mut random, &camera, &shape) else { continue };
+            let Some(known) = construct(&mut random, &camera, &shape) else {
+                continue;
+            };
             count += 1;
             let found = solve(&shape, camera.eye, known.vertex);
             assert_eq!(found.class, VertexClass::Reflected);
@@ -83,8 +103,15 @@ fn mirrors_anywhere_of_any_size_are_solved() {
             random.log_between(0.05, 1.0),
         );
         for shape in [
-            Shape::Sphere { center, radius: size },
-            Shape::Ellipsoid { center, radii: size * radii, rotation: random.rotation() },
+            Shape::Sphere {
+                center,
+                radius: size,
+            },
+            Shape::Ellipsoid {
+                center,
+                radii: size * radii,
+                rotation: random.rotation(),
+            },
         ] {
             let eye = center + size * random.between(1.5, 8.0) * random.direction();
             let target = center + size * 0.04 * random.direction();
@@ -95,7 +122,10 @@ fn mirrors_anywhere_of_any_size_are_solved() {
             let found = solve(&shape, eye, vertex);
             assert_eq!(found.points.len(), 1);
             let off = nearest(&found, hit.position) / size;
-            assert!(off < 1e-9, "{off:e} sizes off on {shape:?} from {eye} to {vertex}");
+            assert!(
+                off < 1e-9,
+                "{off:e} sizes off on {shape:?} from {eye} to {vertex}"
+            );
         }
     }
 }
@@ -112,10 +142,18 @@ fn sphere_hides_what_lies_behind_its_silhouette() {
             continue;
         }
         let found = solve(&unit_sphere(), eye, vertex);
-        let expected = if angle < limit { VertexClass::Reflected } else { VertexClass::Hidden };
+        let expected = if angle < limit {
+            VertexClass::Reflected
+        } else {
+            VertexClass::Hidden
+        };
         assert_eq!(found.class, expected, "{eye} {vertex}");
         assert_eq!(found.points.len(), usize::from(angle < limit));
-        let ball = Shape::Ellipsoid { center: DVec3::ZERO, radii: DVec3::ONE, rotation: DMat3::IDENTITY };
+        let ball = Shape::Ellipsoid {
+            center: DVec3::ZERO,
+            radii: DVec3::ONE,
+            rotation: DMat3::IDENTITY,
+        };
         // Close to the limit the ellipsoid's iteration may give up, and says so.
         if let Ok(other) = reflection_points(&ball, eye, vertex) {
             assert_eq!(other.class, expected);
@@ -123,7 +161,11 @@ fn sphere_hides_what_lies_behind_its_silhouette() {
                 assert!(a.distance(*b) < 1e-6, "{eye} {vertex}: {a} {b}");
             }
         } else {
-            assert!(limit - angle < 1e-3, "no convergence {} from the limit", limit - angle);
+            assert!(
+                limit - angle < 1e-3,
+                "no convergence {} from the limit",
+                limit - angle
+            );
         }
     }
 }
@@ -132,7 +174,11 @@ fn sphere_hides_what_lies_behind_its_silhouette() {
 fn inside_of_a_closed_mirror_nothing_is_reflected() {
     for shape in [unit_sphere(), prototype_ellipsoid()] {
         let eye = DVec3::new(0.0, 0.0, 4.0);
-        for vertex in [DVec3::ZERO, DVec3::new(0.1, 0.2, 0.6), DVec3::new(0.0, 0.1, -3.0)] {
+        for vertex in [
+            DVec3::ZERO,
+            DVec3::new(0.1, 0.2, 0.6),
+            DVec3::new(0.0, 0.1, -3.0),
+        ] {
             assert_eq!(solve(&shape, eye, vertex).class, VertexClass::Hidden);
             assert_eq!(solve(&shape, vertex, eye).class, VertexClass::Hidden);
         }
@@ -141,7 +187,11 @@ fn inside_of_a_closed_mirror_nothing_is_reflected() {
 
 #[test]
 fn eye_and_vertex_on_one_line_with_the_centre() {
-    for vertex in [DVec3::new(0.0, 0.0, 2.0), DVec3::new(0.0, 0.0, 4.0), DVec3::new(0.0, 0.0, 9.0)] {
+    for vertex in [
+        DVec3::new(0.0, 0.0, 2.0),
+        DVec3::new(0.0, 0.0, 4.0),
+        DVec3::new(0.0, 0.0, 9.0),
+    ] {
         let found = solve(&unit_sphere(), DVec3::new(0.0, 0.0, 4.0), vertex);
         assert_eq!(found.points.len(), 1);
         assert!(found.points[0].distance(DVec3::Z) < 1e-15);
@@ -154,7 +204,9 @@ fn bowl_has_all_solutions_and_the_known_shares() {
     let mut random = Random(5);
     let (mut counts, mut total, mut worst) = ([0usize; 5], 0, 0.0f64);
     while total < 30_000 {
-        let Some(known) = construct(&mut random, &camera, &bowl) else { continue };
+        let Some(known) = construct(&mut random, &camera, &bowl) else {
+            continue;
+        };
         total += 1;
         let found = solve(&bowl, camera.eye, known.vertex);
         worst = worst.max(nearest(&found, known.at));
@@ -184,18 +236,23 @@ fn no_solution_on_a_sphere_is_missed() {
     };
     for _ in 0..300 {
         let flat = |random: &mut Random| {
-            random.log_between(0.02, 20.0) * DVec2::from_angle(random.between(0.0, 2.0 * PI)).extend(0.0)
+            random.log_between(0.02, 20.0)
+                * DVec2::from_angle(random.between(0.0, 2.0 * PI)).extend(0.0)
         };
         let (eye, vertex) = (flat(&mut random), flat(&mut random));
         let residual = |angle: f64| {
             let z = DVec2::from_angle(angle).extend(0.0);
             let (po, pv) = ((eye - z).normalize(), (vertex - z).normalize());
             let along = DVec3::new(-z.y, z.x, 0.0);
-            (po.dot(along) + pv.dot(along), po.dot(z) < 0.0 && pv.dot(z) < 0.0)
+            (
+                po.dot(along) + pv.dot(along),
+                po.dot(z) < 0.0 && pv.dot(z) < 0.0,
+            )
         };
         let steps = 100_000;
-        let samples: Vec<_> =
-            (0..=steps).map(|i| residual(2.0 * PI * f64::from(i) / f64::from(steps))).collect();
+        let samples: Vec<_> = (0..=steps)
+            .map(|i| residual(2.0 * PI * f64::from(i) / f64::from(steps)))
+            .collect();
         let changes = samples
             .windows(2)
             .filter(|pair| pair[0].0 * pair[1].0 < 0.0 && pair[0].1 && pair[1].1)
@@ -222,7 +279,12 @@ fn bowl_in_its_special_positions() {
     // On a line with the centre, mirrored in it: the middle, and a ring through (±1.5, 0) that
     // lies beyond the rim; closer to the bowl, a ring within it.
     let found = solve(&bowl, at(4.0), at(2.0));
-    assert!(found.points.iter().any(|point| point.distance(middle) < 1e-14));
+    assert!(
+        found
+            .points
+            .iter()
+            .any(|point| point.distance(middle) < 1e-14)
+    );
     let (eye, ring) = (at(0.6), 1.5 * DVec3::new(0.6, 0.0, -0.8));
     let dir = (ring - eye).normalize();
     let normal = -ring / 1.5;
@@ -262,10 +324,22 @@ fn plane_has_the_mirror_image() {
     assert_eq!(found.class, VertexClass::Reflected);
     assert!(found.points[0].distance(DVec3::new(0.25, 1.0, 0.75)) < 1e-15);
     // Width runs along x, height along z.
-    assert_eq!(solve(&plane, eye, DVec3::new(0.0, 2.0, 3.9)).class, VertexClass::Reflected);
-    assert_eq!(solve(&plane, eye, DVec3::new(2.1, 2.0, 0.0)).class, VertexClass::Unreflected);
-    assert_eq!(solve(&plane, eye, DVec3::new(0.0, 0.5, 0.0)).class, VertexClass::Hidden);
-    assert_eq!(solve(&plane, -eye, DVec3::new(0.0, 2.0, 0.0)).class, VertexClass::Hidden);
+    assert_eq!(
+        solve(&plane, eye, DVec3::new(0.0, 2.0, 3.9)).class,
+        VertexClass::Reflected
+    );
+    assert_eq!(
+        solve(&plane, eye, DVec3::new(2.1, 2.0, 0.0)).class,
+        VertexClass::Unreflected
+    );
+    assert_eq!(
+        solve(&plane, eye, DVec3::new(0.0, 0.5, 0.0)).class,
+        VertexClass::Hidden
+    );
+    assert_eq!(
+        solve(&plane, -eye, DVec3::new(0.0, 2.0, 0.0)).class,
+        VertexClass::Hidden
+    );
 }
 
 #[test]
@@ -273,7 +347,11 @@ fn meshes_have_no_exact_points() {
     let mesh = Shape::Mesh(Mesh::default());
     let error = reflection_points(&mesh, DVec3::Z, DVec3::Y).unwrap_err();
     assert!(error.to_string().contains("mesh mirror"), "{error}");
-    let scene = scene(camera([0.0, 0.0, 4.0], 30.0, [8, 8]), vec![], vec![unit_sphere(), mesh]);
+    let scene = scene(
+        camera([0.0, 0.0, 4.0], 30.0, [8, 8]),
+        vec![],
+        vec![unit_sphere(), mesh],
+    );
     assert!(true_vertices(&scene, &scene.camera.view([8, 8])).is_err());
 }
 
@@ -282,7 +360,10 @@ fn vertices_come_in_order_and_know_what_is_in_view() {
     let camera = camera([0.0, 0.0, 4.0], 40.0, [64, 64]);
     let points = |name, positions| object(name, positions, vec![], Vec3::ONE);
     let (seen, behind) = (Vec3::new(0.6, 7.5, 1.2), Vec3::new(0.0, 0.0, -3.0));
-    let objects = vec![points("a", vec![seen, behind]), points("b", vec![Vec3::new(0.0, 0.5, 2.0)])];
+    let objects = vec![
+        points("a", vec![seen, behind]),
+        points("b", vec![Vec3::new(0.0, 0.5, 2.0)]),
+    ];
     let plane = Shape::Plane {
         center: DVec3::new(0.0, 0.0, -9.0),
         normal: DVec3::Z,
@@ -294,7 +375,12 @@ fn vertices_come_in_order_and_know_what_is_in_view() {
     let truth = true_vertices(&scene, &view).unwrap();
     let classes: Vec<_> = truth.iter().map(|vertex| vertex.class).collect();
     let (reflected, hidden) = (VertexClass::Reflected, VertexClass::Hidden);
-    assert_eq!(classes, [reflected, hidden, reflected, reflected, reflected, reflected]);
+    assert_eq!(
+        classes,
+        [
+            reflected, hidden, reflected, reflected, reflected, reflected
+        ]
+    );
     let frame = Tracer::new(&scene)
         .unwrap()
         .render(&RenderOptions::new([64, 64], Truth::FirstBounce));
@@ -307,7 +393,9 @@ fn vertices_come_in_order_and_know_what_is_in_view() {
     // What the plane reflects close to the axis is covered by the sphere.
     assert_eq!(visible, [true, false, true, true, false, false]);
     assert!(!in_view(&truth[0], &frame, mirrors[1]));
-    let at = points_in_view(&truth[0], &frame, mirrors[0]).next().unwrap();
+    let at = points_in_view(&truth[0], &frame, mirrors[0])
+        .next()
+        .unwrap();
     let (point, projected) = truth[0].points[0];
     assert_eq!(Some(at), projected);
     assert!(view.ray(at).angle_between(point - view.eye) < 1e-7);

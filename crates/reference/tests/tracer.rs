@@ -42,7 +42,10 @@ fn sphere_and_plane_reflect_as_in_closed_form() {
     let center = DVec3::new(0.2, -0.1, 0.3);
     let eye = DVec3::new(0.6, 0.5, 4.0);
     let camera = camera(eye.to_array(), 34.0, [96, 96]);
-    let sphere = Shape::Sphere { center, radius: 0.9 };
+    let sphere = Shape::Sphere {
+        center,
+        radius: 0.9,
+    };
     let found = reflections(&scene(camera.clone(), vec![], vec![sphere]), [96, 96]);
     assert!(found.len() > 3000);
     for (dir, position, reflected) in found {
@@ -56,7 +59,14 @@ fn sphere_and_plane_reflect_as_in_closed_form() {
         let mirrored = dir - 2.0 * dir.dot(normal) * normal;
         assert!(reflected.angle_between(mirrored) < 1e-6);
     }
-    let found = reflections(&scene(camera, vec![], vec![plane([0.0, -1.0, 0.0], [0.0, 1.0, 0.0])]), [96, 96]);
+    let found = reflections(
+        &scene(
+            camera,
+            vec![],
+            vec![plane([0.0, -1.0, 0.0], [0.0, 1.0, 0.0])],
+        ),
+        [96, 96],
+    );
     assert!(found.len() > 1000);
     for (dir, position, reflected) in found {
         assert!((position.y + 1.0).abs() < 1e-15);
@@ -67,16 +77,28 @@ fn sphere_and_plane_reflect_as_in_closed_form() {
 /// A unit sphere before a red wall behind the eye, and a green one behind the sphere.
 fn walls() -> Scene {
     let wall = |name, z: f32, color| {
-        quad(name, Vec3::new(-50.0, -50.0, z), 100.0 * Vec3::X, 100.0 * Vec3::Y, color)
+        quad(
+            name,
+            Vec3::new(-50.0, -50.0, z),
+            100.0 * Vec3::X,
+            100.0 * Vec3::Y,
+            color,
+        )
     };
     let objects = vec![wall("red", 6.0, Vec3::X), wall("green", -6.0, Vec3::Y)];
-    scene(camera([0.0, 0.0, 4.0], 40.0, [9, 9]), objects, vec![unit_sphere()])
+    scene(
+        camera([0.0, 0.0, 4.0], 40.0, [9, 9]),
+        objects,
+        vec![unit_sphere()],
+    )
 }
 
 #[test]
 fn first_bounce_on_a_sphere_is_as_by_hand() {
     let scene = walls();
-    let frame = Tracer::new(&scene).unwrap().render(&RenderOptions::new([9, 9], FIRST));
+    let frame = Tracer::new(&scene)
+        .unwrap()
+        .render(&RenderOptions::new([9, 9], FIRST));
     let (primary, reflected) = (frame.primary.unwrap(), frame.reflected.unwrap());
     // Straight ahead: the sphere at distance 3, and the wall behind the eye at distance 5.
     assert_eq!(*primary.id.at(4, 4), 3);
@@ -97,20 +119,46 @@ fn first_bounce_on_a_sphere_is_as_by_hand() {
     assert_eq!(*reflected.position.at(0, 0), Vec3::ZERO);
     assert_eq!(*frame.color.at(0, 0), Vec3::Y);
     assert!(reflected.bounces.is_none());
-    let names: Vec<_> = frame.names.iter().map(|n| (n.id, n.name.as_str(), n.mirror)).collect();
-    assert_eq!(names, [(1, "red", false), (2, "green", false), (3, "mirror 0", true)]);
+    let names: Vec<_> = frame
+        .names
+        .iter()
+        .map(|n| (n.id, n.name.as_str(), n.mirror))
+        .collect();
+    assert_eq!(
+        names,
+        [
+            (1, "red", false),
+            (2, "green", false),
+            (3, "mirror 0", true)
+        ]
+    );
 }
 
 #[test]
 fn mirrors_are_hidden_by_objects_and_not_seen_by_reflected_rays() {
     let mut scene = walls();
-    scene.objects.push(quad("near", Vec3::new(-9.0, 0.0, 2.0), 18.0 * Vec3::X, 9.0 * Vec3::Y, Vec3::Z));
+    scene.objects.push(quad(
+        "near",
+        Vec3::new(-9.0, 0.0, 2.0),
+        18.0 * Vec3::X,
+        9.0 * Vec3::Y,
+        Vec3::Z,
+    ));
     scene.mirrors[0].shape = plane([0.0, 0.0, 0.0], [0.0, 0.0, 1.0]);
     let second = plane([0.0, 0.0, 5.0], [0.0, 0.0, -1.0]);
-    scene.mirrors.push(catoptric_scene::Mirror { name: "behind".into(), shape: second, tessellation: 8 });
-    let frame = Tracer::new(&scene).unwrap().render(&RenderOptions::new([9, 9], FIRST));
+    scene.mirrors.push(catoptric_scene::Mirror {
+        name: "behind".into(),
+        shape: second,
+        tessellation: 8,
+    });
+    let frame = Tracer::new(&scene)
+        .unwrap()
+        .render(&RenderOptions::new([9, 9], FIRST));
     let (primary, reflected) = (frame.primary.unwrap(), frame.reflected.unwrap());
-    assert_eq!((*primary.id.at(4, 0), *reflected.status.at(4, 0)), (3, Status::NotMirror));
+    assert_eq!(
+        (*primary.id.at(4, 0), *reflected.status.at(4, 0)),
+        (3, Status::NotMirror)
+    );
     // The eye ray downwards: by the first mirror, through the second, to the red wall.
     assert_eq!((*primary.id.at(4, 8), *reflected.id.at(4, 8)), (4, 1));
 }
@@ -122,19 +170,36 @@ fn facing_planes_bounce_a_known_number_of_times() {
     let slope: f64 = 0.3;
     let mut camera = camera([-4.0, 0.0, 0.0], 1.0, [1, 1]);
     camera.target = camera.eye + DVec3::new(slope, 0.0, -1.0);
-    let wall = quad("wall", Vec3::new(20.0, -90.0, -90.0), 180.0 * Vec3::Y, 180.0 * Vec3::Z, Vec3::Y);
-    let mirrors = vec![plane([0.0, 0.0, -1.0], [0.0, 0.0, 1.0]), plane([0.0, 0.0, 1.0], [0.0, 0.0, -1.0])];
+    let wall = quad(
+        "wall",
+        Vec3::new(20.0, -90.0, -90.0),
+        180.0 * Vec3::Y,
+        180.0 * Vec3::Z,
+        Vec3::Y,
+    );
+    let mirrors = vec![
+        plane([0.0, 0.0, -1.0], [0.0, 0.0, 1.0]),
+        plane([0.0, 0.0, 1.0], [0.0, 0.0, -1.0]),
+    ];
     let scene = scene(camera, vec![wall], mirrors);
     let tracer = Tracer::new(&scene).unwrap();
     // Met at x = −4 + 0.3 (1 + 2k) ≤ 5: k = 0 … 14.
     let render = |bounces| tracer.render(&RenderOptions::new([1, 1], Truth::Full { bounces }));
-    for (limit, id, bounces, color) in
-        [(40, 1, 15, Vec3::Y), (15, 1, 15, Vec3::Y), (14, 2, 14, Vec3::ZERO), (1, 3, 1, Vec3::ZERO), (0, 3, 1, Vec3::ZERO)]
-    {
+    for (limit, id, bounces, color) in [
+        (40, 1, 15, Vec3::Y),
+        (15, 1, 15, Vec3::Y),
+        (14, 2, 14, Vec3::ZERO),
+        (1, 3, 1, Vec3::ZERO),
+        (0, 3, 1, Vec3::ZERO),
+    ] {
         let frame = render(limit);
         let reflected = frame.reflected.unwrap();
         assert_eq!(*reflected.id.at(0, 0), id, "limit {limit}");
-        assert_eq!(*reflected.bounces.unwrap().at(0, 0), bounces, "limit {limit}");
+        assert_eq!(
+            *reflected.bounces.unwrap().at(0, 0),
+            bounces,
+            "limit {limit}"
+        );
         assert_eq!(*frame.color.at(0, 0), color);
         assert_eq!(*reflected.status.at(0, 0), Status::Resolved);
         let step = (1.0 + slope * slope).sqrt();
@@ -151,22 +216,38 @@ fn facing_planes_bounce_a_known_number_of_times() {
 
 #[test]
 fn backs_are_black() {
-    let scene = scene(camera([0.0, 0.0, 4.0], 20.0, [3, 3]), vec![], vec![plane([0.0; 3], [0.0, 0.0, -1.0])]);
+    let scene = scene(
+        camera([0.0, 0.0, 4.0], 20.0, [3, 3]),
+        vec![],
+        vec![plane([0.0; 3], [0.0, 0.0, -1.0])],
+    );
     let tracer = Tracer::new(&scene).unwrap();
     for truth in [FIRST, Truth::Full { bounces: 3 }] {
         let frame = tracer.render(&RenderOptions::new([3, 3], truth));
         assert_eq!(*frame.color.at(1, 1), Vec3::ZERO);
         assert_eq!(*frame.primary.unwrap().id.at(1, 1), 1);
         let reflected = frame.reflected.unwrap();
-        assert_eq!((*reflected.status.at(1, 1), *reflected.id.at(1, 1)), (Status::Back, 0));
+        assert_eq!(
+            (*reflected.status.at(1, 1), *reflected.id.at(1, 1)),
+            (Status::Back, 0)
+        );
     }
     // The back of another mirror, in a mirror.
     let mut scene = walls();
     let back = plane([0.0, 0.0, 5.0], [0.0, 0.0, 1.0]);
-    scene.mirrors.push(catoptric_scene::Mirror { name: "back".into(), shape: back, tessellation: 8 });
-    let frame = Tracer::new(&scene).unwrap().render(&RenderOptions::new([9, 9], Truth::Full { bounces: 3 }));
+    scene.mirrors.push(catoptric_scene::Mirror {
+        name: "back".into(),
+        shape: back,
+        tessellation: 8,
+    });
+    let frame = Tracer::new(&scene)
+        .unwrap()
+        .render(&RenderOptions::new([9, 9], Truth::Full { bounces: 3 }));
     let reflected = frame.reflected.unwrap();
-    assert_eq!((*reflected.id.at(4, 4), *reflected.distance.at(4, 4)), (4, 4.0));
+    assert_eq!(
+        (*reflected.id.at(4, 4), *reflected.distance.at(4, 4)),
+        (4, 4.0)
+    );
     assert_eq!(*frame.color.at(4, 4), Vec3::ZERO);
 }
 
@@ -200,7 +281,9 @@ fn tessellated_sphere_never_meets_itself_and_comes_close_to_the_exact_one() {
         for x in 0..size[0] {
             let at = DVec2::new(f64::from(x), f64::from(y)) + 0.5;
             let trace = mesh.reflect_pixel(&view, at, Truth::Full { bounces: 4 });
-            let Some(reflection) = trace.reflection else { continue };
+            let Some(reflection) = trace.reflection else {
+                continue;
+            };
             pixels += 1;
             if reflection.status == Status::Below {
                 below += 1;
@@ -233,7 +316,11 @@ fn supersampling_changes_colour_alone() {
         assert_eq!(all, 9);
         rows.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
     };
-    let options = RenderOptions { samples: 4, progress: Some(&count), ..RenderOptions::new([9, 9], FIRST) };
+    let options = RenderOptions {
+        samples: 4,
+        progress: Some(&count),
+        ..RenderOptions::new([9, 9], FIRST)
+    };
     let many = tracer.render(&options);
     assert_eq!(rows.into_inner(), 9);
     assert_eq!((one.primary, one.reflected), (many.primary, many.reflected));
@@ -253,11 +340,29 @@ fn supersampling_changes_colour_alone() {
 #[test]
 fn textured_quad_shows_its_texels() {
     let texels = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z];
-    let image = std::sync::Arc::new(catoptric_scene::Texture { width: 2, height: 2, texels });
-    let mut wall = quad("wall", Vec3::new(-1.0, -1.0, 0.0), 2.0 * Vec3::X, 2.0 * Vec3::Y, Vec3::ONE);
+    let image = std::sync::Arc::new(catoptric_scene::Texture {
+        width: 2,
+        height: 2,
+        texels,
+    });
+    let mut wall = quad(
+        "wall",
+        Vec3::new(-1.0, -1.0, 0.0),
+        2.0 * Vec3::X,
+        2.0 * Vec3::Y,
+        Vec3::ONE,
+    );
     let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(glam::Vec2::from_array);
-    wall.mesh.uvs = wall.mesh.triangles.iter().map(|t| t.map(|i| corners[i as usize])).collect();
-    wall.mesh.materials[0].paint = Paint::Texture { tint: Vec3::splat(0.5), image };
+    wall.mesh.uvs = wall
+        .mesh
+        .triangles
+        .iter()
+        .map(|t| t.map(|i| corners[i as usize]))
+        .collect();
+    wall.mesh.materials[0].paint = Paint::Texture {
+        tint: Vec3::splat(0.5),
+        image,
+    };
     let scene = scene(camera([0.0, 0.0, 1.0], 90.0, [4, 4]), vec![wall], vec![]);
     let tracer = Tracer::new(&scene).unwrap();
     let at = |x: f64, y: f64| {
@@ -273,7 +378,11 @@ fn textured_quad_shows_its_texels() {
         (2.0, 1.0, Vec3::X / 2.0),
         (1.5, 3.0, (3.0 * Vec3::Y + Vec3::Z) / 4.0),
     ] {
-        assert!(at(x, y).distance(color / 2.0) < 1e-6, "{} at {x} {y}", at(x, y));
+        assert!(
+            at(x, y).distance(color / 2.0) < 1e-6,
+            "{} at {x} {y}",
+            at(x, y)
+        );
     }
 }
 
@@ -281,11 +390,20 @@ fn textured_quad_shows_its_texels() {
 fn degenerate_scenes_are_rendered() {
     let camera = camera([0.0, 0.0, 4.0], 40.0, [4, 4]);
     let points = object("points", vec![Vec3::X, Vec3::Y], vec![], Vec3::ONE);
-    let thin = object("thin", vec![Vec3::ZERO, Vec3::X, 2.0 * Vec3::X], vec![[0, 1, 2], [0, 0, 0]], Vec3::ONE);
+    let thin = object(
+        "thin",
+        vec![Vec3::ZERO, Vec3::X, 2.0 * Vec3::X],
+        vec![[0, 1, 2], [0, 0, 0]],
+        Vec3::ONE,
+    );
     for objects in [vec![], vec![points], vec![thin]] {
         for mirrors in [vec![], vec![unit_sphere()]] {
             let mut scene = scene(camera.clone(), objects.clone(), mirrors);
-            scene.background = Background::Gradient { zenith: Vec3::X, horizon: Vec3::Y, nadir: Vec3::Z };
+            scene.background = Background::Gradient {
+                zenith: Vec3::X,
+                horizon: Vec3::Y,
+                nadir: Vec3::Z,
+            };
             let tracer = Tracer::new(&scene).unwrap();
             let frame = tracer.render(&RenderOptions::new([4, 4], FIRST));
             let corner = scene.camera.view([4, 4]).ray(DVec2::splat(0.5));
@@ -294,7 +412,9 @@ fn degenerate_scenes_are_rendered() {
         }
     }
     let empty = scene(camera, vec![], vec![]);
-    let frame = Tracer::new(&empty).unwrap().render(&RenderOptions::new([0, 0], FIRST));
+    let frame = Tracer::new(&empty)
+        .unwrap()
+        .render(&RenderOptions::new([0, 0], FIRST));
     assert!(frame.color.pixels().is_empty());
 }
 
@@ -309,20 +429,39 @@ fn broken_scenes_are_refused() {
     assert_eq!(error.to_string(), "`red`: triangle 1: position 4 of 4");
     let error = refuse(|mesh| mesh.material[1] = 1);
     assert_eq!(error.to_string(), "`red`: triangle 1: material 1 of 1");
-    assert!(matches!(refuse(|mesh| mesh.positions[3].x = f32::NAN), ReferenceError::NotFinite { index: 3, .. }));
-    assert!(matches!(refuse(|mesh| mesh.materials[0].paint = Paint::Vertex), ReferenceError::Attribute { .. }));
-    assert!(matches!(refuse(|mesh| mesh.uvs = vec![[glam::Vec2::ZERO; 3]]), ReferenceError::Attribute { .. }));
+    assert!(matches!(
+        refuse(|mesh| mesh.positions[3].x = f32::NAN),
+        ReferenceError::NotFinite { index: 3, .. }
+    ));
+    assert!(matches!(
+        refuse(|mesh| mesh.materials[0].paint = Paint::Vertex),
+        ReferenceError::Attribute { .. }
+    ));
+    assert!(matches!(
+        refuse(|mesh| mesh.uvs = vec![[glam::Vec2::ZERO; 3]]),
+        ReferenceError::Attribute { .. }
+    ));
     let mut scene = walls();
-    let mesh = Mesh { normals: vec![], ..unit_sphere().tessellate(8) };
+    let mesh = Mesh {
+        normals: vec![],
+        ..unit_sphere().tessellate(8)
+    };
     scene.mirrors[0].shape = Shape::Mesh(mesh);
     let error = Tracer::new(&scene).unwrap_err();
-    assert!(error.to_string().starts_with("`mirror 0`: 0 normals for "), "{error}");
+    assert!(
+        error.to_string().starts_with("`mirror 0`: 0 normals for "),
+        "{error}"
+    );
 }
 
 /// A tessellated sphere's triangles, as an object around the origin.
 fn ball(segments: u32) -> Scene {
     let mesh = unit_sphere().tessellate(segments);
-    scene(camera([0.0, 0.0, 4.0], 40.0, [4, 4]), vec![object("ball", mesh.positions, mesh.triangles, Vec3::ONE)], vec![])
+    scene(
+        camera([0.0, 0.0, 4.0], 40.0, [4, 4]),
+        vec![object("ball", mesh.positions, mesh.triangles, Vec3::ONE)],
+        vec![],
+    )
 }
 
 #[test]
@@ -341,7 +480,9 @@ fn no_ray_slips_between_triangles() {
         };
         let origin = random.between(0.0, 0.99) * random.direction();
         let dir = (target - origin).normalize();
-        let hit = tracer.trace(origin, dir).unwrap_or_else(|| panic!("{origin} {dir} sees nothing"));
+        let hit = tracer
+            .trace(origin, dir)
+            .unwrap_or_else(|| panic!("{origin} {dir} sees nothing"));
         assert!((hit.t - origin.distance(target)).abs() < 1e-9);
         assert!((hit.position - origin - hit.t * dir).length() < 1e-13);
         assert!(matches!(hit.surface, Surface::Object { index: 0, .. }));

@@ -33,7 +33,11 @@ pub fn outside(
 ) -> Result<Solutions, NotAvailable> {
     let size = radii.max_element();
     let local = |point: DVec3| rotation.transpose() * (point - center) / size;
-    let path = Path { radii: radii / size, eye: local(eye), vertex: local(vertex) };
+    let path = Path {
+        radii: radii / size,
+        eye: local(eye),
+        vertex: local(vertex),
+    };
     let Some(start) = path.start() else {
         return Ok(Solutions::none(VertexClass::Hidden));
     };
@@ -44,7 +48,10 @@ pub fn outside(
         )));
     }
     let points = vec![center + rotation * (unit * radii)];
-    Ok(Solutions { class: VertexClass::Reflected, points })
+    Ok(Solutions {
+        class: VertexClass::Reflected,
+        points,
+    })
 }
 
 /// Ways from an eye over a point of the ellipsoid to a vertex, in the ellipsoid's axes, its
@@ -71,7 +78,11 @@ impl Path {
         let (eye, vertex) = (self.eye / self.radii, self.vertex / self.radii);
         let along = vertex - eye;
         let length = along.length_squared();
-        let share = if length > 0.0 { (-eye.dot(along) / length).clamp(0.0, 1.0) } else { 0.0 };
+        let share = if length > 0.0 {
+            (-eye.dot(along) / length).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
         let nearest = eye + share * along;
         (nearest.length_squared() > 1.0).then(|| nearest.normalize())
     }
@@ -89,7 +100,11 @@ impl Path {
         let [(to_eye, _), (to_vertex, _)] = self.legs(unit);
         let sum = to_eye + to_vertex;
         let normal = (unit / self.radii).normalize();
-        if sum.dot(normal) > 0.0 { sum.cross(normal).length() } else { f64::INFINITY }
+        if sum.dot(normal) > 0.0 {
+            sum.cross(normal).length()
+        } else {
+            f64::INFINITY
+        }
     }
 
     fn at(&self, unit: DVec3) -> Local {
@@ -103,7 +118,9 @@ impl Path {
         let second = |a: DVec3, b: DVec3| {
             let (a, b) = (self.radii * a, self.radii * b);
             legs.iter()
-                .map(|(towards, distance)| (a.dot(b) - a.dot(*towards) * b.dot(*towards)) / distance)
+                .map(|(towards, distance)| {
+                    (a.dot(b) - a.dot(*towards) * b.dot(*towards)) / distance
+                })
                 .sum::<f64>()
         };
         let mixed = second(x, y);
@@ -111,7 +128,12 @@ impl Path {
             DVec2::new(second(x, x) + bending, mixed),
             DVec2::new(mixed, second(y, y) + bending),
         );
-        Local { length: legs[0].1 + legs[1].1, axes, gradient: gradient_along, hessian }
+        Local {
+            length: legs[0].1 + legs[1].1,
+            axes,
+            gradient: gradient_along,
+            hessian,
+        }
     }
 
     /// Newton steps, shortened until the way gets shorter; near the minimum, where lengths no

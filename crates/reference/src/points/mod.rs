@@ -35,7 +35,10 @@ pub struct Solutions {
 
 impl Solutions {
     pub(crate) fn none(class: VertexClass) -> Self {
-        Self { class, points: Vec::new() }
+        Self {
+            class,
+            points: Vec::new(),
+        }
     }
 
     /// `Reflected` in the points of the whole surface that an open mirror keeps; else
@@ -48,7 +51,10 @@ impl Solutions {
         if points.is_empty() {
             return Self::none(VertexClass::Unreflected);
         }
-        Self { class: VertexClass::Reflected, points }
+        Self {
+            class: VertexClass::Reflected,
+            points,
+        }
     }
 }
 
@@ -57,16 +63,37 @@ impl Solutions {
 /// # Errors
 /// For mesh mirrors, and for an ellipsoid if the iteration does not get below its residual
 /// (an eye or a vertex on the surface).
-pub fn reflection_points(shape: &Shape, eye: DVec3, vertex: DVec3) -> Result<Solutions, NotAvailable> {
+pub fn reflection_points(
+    shape: &Shape,
+    eye: DVec3,
+    vertex: DVec3,
+) -> Result<Solutions, NotAvailable> {
     match shape {
         Shape::Sphere { center, radius } => Ok(sphere::outside(*center, *radius, eye, vertex)),
-        Shape::Bowl { center, radius, axis, half_angle } => {
-            Ok(sphere::inside(*center, *radius, *axis, *half_angle, eye, vertex))
-        }
-        Shape::Ellipsoid { center, radii, rotation } => {
-            ellipsoid::outside(*center, *radii, *rotation, eye, vertex)
-        }
-        Shape::Plane { center, normal, up, size } => {
+        Shape::Bowl {
+            center,
+            radius,
+            axis,
+            half_angle,
+        } => Ok(sphere::inside(
+            *center,
+            *radius,
+            *axis,
+            *half_angle,
+            eye,
+            vertex,
+        )),
+        Shape::Ellipsoid {
+            center,
+            radii,
+            rotation,
+        } => ellipsoid::outside(*center, *radii, *rotation, eye, vertex),
+        Shape::Plane {
+            center,
+            normal,
+            up,
+            size,
+        } => {
             let (eye_height, vertex_height) =
                 ((eye - center).dot(*normal), (vertex - center).dot(*normal));
             if eye_height <= 0.0 || vertex_height <= 0.0 {
@@ -93,7 +120,11 @@ pub fn reflection_points(shape: &Shape, eye: DVec3, vertex: DVec3) -> Result<Sol
 /// # Errors
 /// If any mirror has none ([`reflection_points`]).
 pub fn true_vertices(scene: &Scene, view: &View) -> Result<Vec<TrueVertex>, NotAvailable> {
-    if scene.mirrors.iter().any(|mirror| !mirror.shape.is_analytic()) {
+    if scene
+        .mirrors
+        .iter()
+        .any(|mirror| !mirror.shape.is_analytic())
+    {
         return Err(mesh());
     }
     let positions: Vec<DVec3> = scene
@@ -127,17 +158,24 @@ pub fn points_in_view<'a>(
     mirror_id: u32,
 ) -> impl Iterator<Item = DVec2> + 'a {
     let [width, height] = frame.color.size();
-    vertex.points.iter().filter_map(|(_, at)| *at).filter(move |at| {
-        let inside = at.x >= 0.0
-            && at.y >= 0.0
-            && at.x < f64::from(width)
-            && at.y < f64::from(height);
-        let (Some(primary), true) = (&frame.primary, inside) else { return false };
-        let (x, y) = (at.x as u32, at.y as u32);
-        let back = |status: &Status| *status == Status::Back;
-        *primary.id.at(x, y) == mirror_id
-            && !frame.reflected.as_ref().is_some_and(|reflected| back(reflected.status.at(x, y)))
-    })
+    vertex
+        .points
+        .iter()
+        .filter_map(|(_, at)| *at)
+        .filter(move |at| {
+            let inside =
+                at.x >= 0.0 && at.y >= 0.0 && at.x < f64::from(width) && at.y < f64::from(height);
+            let (Some(primary), true) = (&frame.primary, inside) else {
+                return false;
+            };
+            let (x, y) = (at.x as u32, at.y as u32);
+            let back = |status: &Status| *status == Status::Back;
+            *primary.id.at(x, y) == mirror_id
+                && !frame
+                    .reflected
+                    .as_ref()
+                    .is_some_and(|reflected| back(reflected.status.at(x, y)))
+        })
 }
 
 /// True where the vertex has at least one solution in view ([`points_in_view`]).

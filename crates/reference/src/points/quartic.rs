@@ -35,7 +35,8 @@ impl Complex {
     }
 
     fn inverse(self) -> Self {
-        self.conj().scale(1.0 / (self.re * self.re + self.im * self.im))
+        self.conj()
+            .scale(1.0 / (self.re * self.re + self.im * self.im))
     }
 }
 

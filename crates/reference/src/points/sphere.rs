@@ -46,7 +46,10 @@ pub fn inside(
 ) -> Solutions {
     if eye == center && vertex == center {
         let points = vec![center + radius * axis];
-        return Solutions { class: VertexClass::Reflected, points };
+        return Solutions {
+            class: VertexClass::Reflected,
+            points,
+        };
     }
     let rim = half_angle.cos();
     let points = solve(center, radius, eye, vertex, -1.0, axis);
@@ -75,7 +78,9 @@ fn solve(
     let e2 = if off_line.length() > COLLINEAR * vertex.length() {
         off_line.normalize()
     } else {
-        across(prefer).try_normalize().unwrap_or_else(|| e1.any_orthonormal_vector())
+        across(prefer)
+            .try_normalize()
+            .unwrap_or_else(|| e1.any_orthonormal_vector())
     };
     let p = DVec2::new(eye.dot(e1), eye.dot(e2));
     let q = DVec2::new(vertex.dot(e1), vertex.dot(e2));
@@ -89,7 +94,9 @@ fn solve(
 fn angles(p: DVec2, q: DVec2, side: f64) -> Vec<f64> {
     let mut found: Vec<f64> = Vec::with_capacity(3);
     for angle in candidates(p, q) {
-        let Some(angle) = polish(p, q, angle) else { continue };
+        let Some(angle) = polish(p, q, angle) else {
+            continue;
+        };
         let z = DVec2::from_angle(angle);
         let visible = side * (p - z).dot(z) > 0.0 && side * (q - z).dot(z) > 0.0;
         let apart = |other: &f64| {
@@ -133,13 +140,15 @@ fn polish(p: DVec2, q: DVec2, start: f64) -> Option<f64> {
     let residual = |angle: f64| {
         let z = DVec2::from_angle(angle);
         let along = z.perp();
-        [p, q].into_iter().fold((0.0, 0.0), |(value, slope), point| {
-            let distance = point.distance(z);
-            let towards = (point - z) / distance;
-            let component = towards.dot(along);
-            let turning = towards.dot(z) + (1.0 - component * component) / distance;
-            (value + component, slope - turning)
-        })
+        [p, q]
+            .into_iter()
+            .fold((0.0, 0.0), |(value, slope), point| {
+                let distance = point.distance(z);
+                let towards = (point - z) / distance;
+                let component = towards.dot(along);
+                let turning = towards.dot(z) + (1.0 - component * component) / distance;
+                (value + component, slope - turning)
+            })
     };
     let mut angle = start;
     let (mut value, mut slope) = residual(angle);

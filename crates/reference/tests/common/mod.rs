@@ -3,7 +3,9 @@
 
 use std::f64::consts::PI;
 
-use catoptric_scene::{Background, Camera, Fov, Material, Mesh, Mirror, Object, Paint, Scene, Shape};
+use catoptric_scene::{
+    Background, Camera, Fov, Material, Mesh, Mirror, Object, Paint, Scene, Shape,
+};
 use glam::{DMat3, DVec2, DVec3, Vec3};
 
 /// SplitMix64 (Steele, Lea and Flood, OOPSLA 2014).
@@ -35,7 +37,10 @@ impl Random {
     }
 
     pub fn pixel(&mut self, size: [u32; 2]) -> DVec2 {
-        DVec2::new(self.between(0.0, f64::from(size[0])), self.between(0.0, f64::from(size[1])))
+        DVec2::new(
+            self.between(0.0, f64::from(size[0])),
+            self.between(0.0, f64::from(size[1])),
+        )
     }
 
     pub fn rotation(&mut self) -> DMat3 {
@@ -54,7 +59,11 @@ pub fn camera(eye: [f64; 3], fov_y: f64, resolution: [u32; 2]) -> Camera {
 }
 
 pub fn scene(camera: Camera, objects: Vec<Object>, mirrors: Vec<Shape>) -> Scene {
-    let mirror = |(index, shape)| Mirror { name: format!("mirror {index}"), shape, tessellation: 64 };
+    let mirror = |(index, shape)| Mirror {
+        name: format!("mirror {index}"),
+        shape,
+        tessellation: 64,
+    };
     Scene {
         name: "test".into(),
         why: "test".into(),
@@ -69,9 +78,21 @@ pub fn scene(camera: Camera, objects: Vec<Object>, mirrors: Vec<Shape>) -> Scene
 /// An object of one colour.
 pub fn object(name: &str, positions: Vec<Vec3>, triangles: Vec<[u32; 3]>, color: Vec3) -> Object {
     let material = vec![0; triangles.len()];
-    let materials = vec![Material { name: name.into(), paint: Paint::Color(color) }];
-    let mesh = Mesh { positions, triangles, material, materials, ..Mesh::default() };
-    Object { name: name.into(), mesh }
+    let materials = vec![Material {
+        name: name.into(),
+        paint: Paint::Color(color),
+    }];
+    let mesh = Mesh {
+        positions,
+        triangles,
+        material,
+        materials,
+        ..Mesh::default()
+    };
+    Object {
+        name: name.into(),
+        mesh,
+    }
 }
 
 /// A parallelogram from a corner and two edges.
@@ -81,7 +102,10 @@ pub fn quad(name: &str, corner: Vec3, u: Vec3, v: Vec3, color: Vec3) -> Object {
 }
 
 pub fn unit_sphere() -> Shape {
-    Shape::Sphere { center: DVec3::ZERO, radius: 1.0 }
+    Shape::Sphere {
+        center: DVec3::ZERO,
+        radius: 1.0,
+    }
 }
 
 pub fn prototype_ellipsoid() -> Shape {
@@ -94,5 +118,10 @@ pub fn prototype_ellipsoid() -> Shape {
 
 /// z < −0.75 of a sphere of radius 1.5 around the origin.
 pub fn prototype_bowl() -> Shape {
-    Shape::Bowl { center: DVec3::ZERO, radius: 1.5, axis: DVec3::NEG_Z, half_angle: PI / 3.0 }
+    Shape::Bowl {
+        center: DVec3::ZERO,
+        radius: 1.5,
+        axis: DVec3::NEG_Z,
+        half_angle: PI / 3.0,
+    }
 }

@@ -5,10 +5,10 @@
 //! object, the mirror is met.
 //!
 //! A ray that leaves a mirror must not meet it again where it starts. From a mesh, the ray
-//! starts [`NUDGE`] × the scene's extent off the triangle, on its reflecting side, and so moves
+//! starts `NUDGE` × the scene's extent off the triangle, on its reflecting side, and so moves
 //! away from it and, where the mesh is convex, from its neighbours. A sphere, an ellipsoid and a
 //! plane are not met again by a ray that leaves them, so they are left out. A bowl is met again
-//! only beyond [`BOWL_NUDGE`] × its extent.
+//! only beyond `BOWL_NUDGE` × its extent.
 
 use catoptric_scene::{Mesh, Scene, Shape};
 use glam::{DVec3, Vec3};

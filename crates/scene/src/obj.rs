@@ -150,7 +150,7 @@ fn scan(path: &Path, text: &str) -> Result<Scan, SceneError> {
     let mut counts = [0i64; 3];
     let mut faces = 0;
     let mut colored = None;
-    // Legal: the loader resolves positive indices at the end.
+    // Legal where the index exists at the end of the file.
     let mut ahead = Vec::new();
     for (line, number) in text.lines().zip(1..) {
         let error = |message: String| at_line(path, number, message);

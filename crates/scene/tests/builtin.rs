@@ -1,0 +1,76 @@
+//! The scenes that come with the program.
+
+use catoptric_scene::{LoadOptions, builtin, open};
+use glam::DVec2;
+
+#[test]
+fn all_load_and_say_why() {
+    let names = builtin::names();
+    for info in builtin::list(&LoadOptions::default()) {
+        assert!(names.contains(&info.name));
+        assert!(info.why.len() > 20, "{}", info.name);
+        let needs_models = ["teapot-ball", "sponza-ball"].contains(&info.name.as_str());
+        assert_eq!(info.available, !needs_models, "{}: {:?}", info.name, info.reason);
+        assert_eq!(info.reason.is_some(), needs_models);
+        if info.available {
+            assert!(info.objects > 0 && info.mirrors > 0 && info.vertices > 0, "{}", info.name);
+        }
+    }
+}
+
+#[test]
+fn sizes_are_what_the_names_say() {
+    for (name, vertices) in [
+        ("sphere-objects-1k", 1000),
+        ("sphere-objects-20k", 20000),
+        ("sphere-grid-100", 100),
+        ("sphere-grid-300", 300),
+        ("sphere-grid-full-1k", 1000),
+        ("sphere-grid-3k", 3000),
+        ("sphere-grid-10k", 10000),
+        ("sphere-grid-full-30k", 30000),
+        ("sphere-grid-100k", 100_000),
+    ] {
+        let found = open(name, &LoadOptions::default()).unwrap().vertex_count();
+        assert!(found.abs_diff(vertices) * 20 <= vertices, "{name}: {found}");
+    }
+}
+
+#[test]
+fn prototype_mirrors_cover_the_pixels_they_should() {
+    for (name, pixels) in
+        [("prototype-sphere", 141_144), ("prototype-ellipsoid", 68_890), ("prototype-bowl", 161_269)]
+    {
+        let scene = open(name, &LoadOptions::default()).unwrap();
+        let [width, height] = scene.camera.resolution;
+        let view = scene.camera.view(scene.camera.resolution);
+        let mut found = 0;
+        for j in 0..height {
+            for i in 0..width {
+                let dir = view.ray(DVec2::new(f64::from(i), f64::from(j)) + 0.5);
+                let hit = scene.mirrors[0].shape.intersect(view.eye, dir, 0.0);
+                found += u32::from(hit.is_some_and(|hit| hit.normal.dot(dir) < 0.0));
+            }
+        }
+        assert_eq!(found, pixels, "{name}");
+        assert_eq!(scene.vertex_count(), 3000);
+    }
+}
+
+#[test]
+fn the_hash_knows_what_a_picture_shows() {
+    let options = LoadOptions::default();
+    let scene = |name: &str| open(name, &options).unwrap();
+    assert_eq!(scene("spheres").hash, scene("spheres").hash);
+    assert_eq!(scene("spheres").hash.len(), 64);
+    let larger = LoadOptions { resolution: Some([32, 16]), ..LoadOptions::default() };
+    let resized = open("spheres", &larger).unwrap();
+    assert_eq!(resized.hash, scene("spheres").hash, "resolution is not in the hash");
+    assert_eq!(resized.camera.resolution, [32, 16]);
+    assert_ne!(scene("sphere-grid-100").hash, scene("sphere-grid-300").hash);
+    let mut hashes: Vec<_> = builtin::names().iter().filter_map(|n| open(n, &options).ok()).map(|s| s.hash).collect();
+    let count = hashes.len();
+    hashes.sort();
+    hashes.dedup();
+    assert_eq!(hashes.len(), count);
+}

@@ -55,13 +55,17 @@ proptest! {
             let origin = DVec3::new(x, y, z);
             let point = sample(&shape, u, v);
             let distance = origin.distance(point);
-            prop_assume!(distance > 0.1);
+            if distance < 0.1 {
+                continue;
+            }
             let dir = (point - origin) / distance;
             let hit = shape.intersect(origin, dir, 0.0);
             let normal = shape.normal_at(point).unwrap();
             prop_assert!((normal.length() - 1.0).abs() < 1e-12);
             // A grazing ray may pass by through rounding, or meet the surface twice close by.
-            prop_assume!(normal.dot(dir).abs() > 0.2);
+            if normal.dot(dir).abs() < 0.2 {
+                continue;
+            }
             let hit = hit.expect("a ray to a point of the surface hits");
             prop_assert!(hit.t <= distance + 1e-9);
             prop_assert!((origin + hit.t * dir).distance(hit.position) < 1e-9);

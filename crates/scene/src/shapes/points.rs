@@ -70,3 +70,56 @@ pub(crate) fn inverse_points(
     }
     Ok(points)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Fov, Shape};
+
+    fn camera() -> Camera {
+        Camera {
+            eye: DVec3::new(0.5, 0.35, 4.0),
+            target: DVec3::ZERO,
+            up: DVec3::Y,
+            fov: Fov::Y(34.0),
+            resolution: [64, 48],
+        }
+    }
+
+    fn mirror(shape: Shape) -> [Mirror; 1] {
+        [Mirror { name: "m".to_owned(), shape, tessellation: 128 }]
+    }
+
+    #[test]
+    fn the_same_seed_gives_the_same_points_at_the_distances_asked_for() {
+        let mirrors = mirror(Shape::Sphere { center: DVec3::ZERO, radius: 1.0 });
+        let make = |seed| {
+            let inverse = Inverse { count: 200, seed, distance: [0.05, 8.0] };
+            inverse_points(&inverse, &camera(), &mirrors, 0).unwrap()
+        };
+        let points = make(1);
+        assert_eq!(points.len(), 200);
+        assert_eq!(points, make(1));
+        assert_ne!(points, make(2));
+        assert!(points.iter().all(|p| p.length() > 1.0 && p.length() < 9.0));
+        let near = points.iter().filter(|p| p.length() < 1.2).count();
+        assert!(near > 40, "log-uniform: many are near, {near}");
+    }
+
+    #[test]
+    fn in_a_bowl_points_lie_before_the_second_meeting() {
+        let shape =
+            Shape::Bowl { center: DVec3::ZERO, radius: 1.5, axis: DVec3::NEG_Z, half_angle: 1.4 };
+        let inverse = Inverse { count: 300, seed: 1, distance: [0.05, 8.0] };
+        let points = inverse_points(&inverse, &camera(), &mirror(shape), 0).unwrap();
+        let rim = 1.5 * 1.4f64.cos();
+        assert!(points.iter().all(|p| p.length() < 1.5 || -p.z < rim), "none is behind the bowl");
+    }
+
+    #[test]
+    fn a_mirror_out_of_view_has_no_points() {
+        let mirrors = mirror(Shape::Sphere { center: DVec3::Z * 9.0, radius: 1.0 });
+        let inverse = Inverse { count: 1, seed: 1, distance: [1.0, 2.0] };
+        assert!(inverse_points(&inverse, &camera(), &mirrors, 0).is_err());
+    }
+}

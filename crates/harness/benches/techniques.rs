@@ -1,0 +1,62 @@
+//! A frame of each technique on a few scenes: GPU time where the adapter has a clock, else wall
+//! time.
+
+use std::time::Duration;
+
+use catoptric_reflect::{Gpu, Prefer, Prepared, Support};
+use catoptric_scene::LoadOptions;
+use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+
+const SCENES: [&str; 3] = ["sphere-table", "sphere-objects-1k", "ellipsoid"];
+const TECHNIQUES: [&str; 2] = ["linear", "linear(residual=cross,neighbours=8)"];
+const RESOLUTION: [u32; 2] = [640, 480];
+
+fn techniques(criterion: &mut Criterion) {
+    let gpu = match Gpu::new(None, Prefer::Hardware) {
+        Ok(gpu) => gpu,
+        Err(error) => {
+            eprintln!("no benchmark without an adapter: {error}");
+            return;
+        }
+    };
+    let options = LoadOptions {
+        resolution: Some(RESOLUTION),
+        ..LoadOptions::default()
+    };
+    for name in SCENES {
+        let scene = catoptric_scene::open(name, &options).expect("a built-in scene");
+        let mut group = criterion.benchmark_group(name);
+        group
+            .sample_size(10)
+            .warm_up_time(Duration::from_millis(500))
+            .measurement_time(Duration::from_secs(2));
+        for technique in TECHNIQUES {
+            let spec = catoptric_reflect::parse(technique).expect("a technique that exists");
+            if let Support::No(reason) = catoptric_reflect::supports(&spec, &scene) {
+                eprintln!("{technique} does not apply to {name}: {reason}");
+                continue;
+            }
+            let mut prepared = catoptric_reflect::prepare(&gpu, &spec, &scene, RESOLUTION)
+                .expect("a supported scene");
+            group.bench_function(BenchmarkId::from_parameter(technique), |bencher| {
+                bencher.iter_custom(|frames| time(&mut prepared, frames));
+            });
+        }
+        group.finish();
+    }
+}
+
+/// Time of that many frames.
+fn time(prepared: &mut Prepared<'_>, frames: u64) -> Duration {
+    let mut total = Duration::ZERO;
+    for _ in 0..frames {
+        let frame = prepared
+            .time_frame()
+            .expect("a frame that was rendered before");
+        total += Duration::from_secs_f64(frame.gpu_ms.unwrap_or(frame.wall_ms) / 1e3);
+    }
+    total
+}
+
+criterion_group!(benches, techniques);
+criterion_main!(benches);

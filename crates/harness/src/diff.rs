@@ -1,0 +1,69 @@
+//! `catoptric diff`: our metrics on any two pictures.
+
+use std::path::Path;
+
+use anyhow::Context;
+use catoptric_frame::{Frame, Image};
+use catoptric_metrics::{Colormap, MapKind, flip::DEFAULT_PIXELS_PER_DEGREE};
+use serde_json::{Value, json};
+
+use crate::cli::Common;
+use crate::exit::{Outcome, bad_input};
+use crate::{print, setup};
+
+/// Compares two EXR pictures: all metrics where both have the layers, colour alone otherwise.
+/// `-o FILE.png` writes a map of the colour error.
+pub fn run(reference: &Path, test: &Path, common: &Common) -> anyhow::Result<Outcome> {
+    if let Some(path) = &common.output {
+        setup::check_writable(path)?;
+    }
+    let (a, b) = (Frame::read_exr(reference)?, Frame::read_exr(test)?);
+    if a.color.size() != b.color.size() {
+        let ([aw, ah], [bw, bh]) = (a.color.size(), b.color.size());
+        let names = (reference.display(), test.display());
+        return Err(bad_input(format!(
+            "{} is {aw}x{ah} pixels, {} is {bw}x{bh}",
+            names.0, names.1
+        )));
+    }
+    let layered = |frame: &Frame| frame.primary.is_some() && frame.reflected.is_some();
+    let metrics = if layered(&a) && layered(&b) {
+        serde_json::to_value(catoptric_metrics::compare(&a, &b)?)?
+    } else {
+        let everywhere = Image::filled(a.color.size(), true);
+        let color = catoptric_metrics::compare_color(
+            &a.color,
+            &b.color,
+            &everywhere,
+            DEFAULT_PIXELS_PER_DEGREE,
+        )?;
+        json!({ "color": color })
+    };
+    if let Some(path) = &common.output {
+        let map = color_error(&a, &b);
+        catoptric_frame::write_png_rgb8(
+            &catoptric_metrics::colorize(&map, [0.0, 1.0], Colormap::Magma),
+            path,
+        )
+        .context("the error map")?;
+    }
+    let mut result =
+        json!({ "reference": reference.display().to_string(), "test": test.display().to_string() });
+    if let (Value::Object(result), Value::Object(metrics)) = (&mut result, metrics) {
+        result.extend(metrics);
+    }
+    print::facts(&result, common.format)?;
+    Ok(Outcome::Done)
+}
+
+/// Mean absolute difference over the channels: on the mirrors where both have layers, else
+/// everywhere.
+fn color_error(a: &Frame, b: &Frame) -> Image<f32> {
+    catoptric_metrics::error_map(MapKind::AbsColor, a, b).unwrap_or_else(|_| {
+        let pairs = a.color.pixels().iter().zip(b.color.pixels());
+        let errors = pairs
+            .map(|(a, b)| (*a - *b).abs().element_sum() / 3.0)
+            .collect();
+        Image::from_vec(a.color.size(), errors)
+    })
+}

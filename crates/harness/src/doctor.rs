@@ -1,0 +1,22 @@
+//! `catoptric doctor`: what renders here, and whether its clock can be believed.
+
+use serde_json::json;
+
+use crate::cli::Common;
+use crate::exit::Outcome;
+use crate::{print, setup};
+
+/// Describes the adapter that measuring would use and tests its timestamps.
+pub fn run(common: &Common) -> anyhow::Result<Outcome> {
+    let gpu = setup::open_gpu(common)?;
+    let info = gpu.info();
+    let test = gpu.timestamp_self_test();
+    let facts = json!({
+        "adapter": { "name": info.name, "driver": info.driver, "backend": info.backend, "software": info.software },
+        "limits": info.limits,
+        "features": info.features,
+        "timestamps": test,
+    });
+    print::facts(&facts, common.format)?;
+    Ok(Outcome::Done)
+}

@@ -1,0 +1,88 @@
+//! `catoptric list`: scenes, techniques, adapters.
+
+use serde_json::{Value, json};
+
+use crate::cli::{Common, Format, Listing};
+use crate::exit::Outcome;
+use crate::{print, setup};
+
+/// Lists what was asked for.
+pub fn run(what: Listing, common: &Common) -> anyhow::Result<Outcome> {
+    match what {
+        Listing::Scenes => scenes(common),
+        Listing::Techniques => techniques(common.format),
+        Listing::Adapters => adapters(common),
+    }?;
+    Ok(Outcome::Done)
+}
+
+fn scenes(common: &Common) -> anyhow::Result<()> {
+    let infos = catoptric_scene::builtin::list(&setup::load_options(common));
+    let rows = infos
+        .iter()
+        .map(serde_json::to_value)
+        .collect::<Result<Vec<_>, _>>()?;
+    let columns = [
+        "name",
+        "available",
+        "objects",
+        "mirrors",
+        "vertices",
+        "triangles",
+        "why",
+        "reason",
+    ];
+    print::listing(&rows, &columns, common.format)
+}
+
+fn techniques(format: Format) -> anyhow::Result<()> {
+    let infos = catoptric_reflect::list();
+    let rows: Vec<Value> = infos
+        .iter()
+        .map(|info| {
+            let option = |option: &catoptric_reflect::OptionInfo| {
+                json!({ "name": option.name, "default": option.default, "values": option.values, "what": option.what })
+            };
+            let options: Vec<Value> = info.options.iter().map(option).collect();
+            json!({ "name": info.name, "what": info.what, "family": info.family, "paper": info.paper,
+                    "options": options, "available": info.available, "reason": info.reason })
+        })
+        .collect();
+    if format == Format::Json {
+        return print::json(&Value::Array(rows));
+    }
+    let flat: Vec<Value> = rows
+        .into_iter()
+        .map(|mut row| {
+            let options = row["options"].as_array().into_iter().flatten();
+            let text = options.map(|option| {
+                format!(
+                    "{}={}",
+                    print::cell(option.get("name")),
+                    print::cell(option.get("default"))
+                )
+            });
+            row["options"] = text.collect::<Vec<_>>().join(",").into();
+            row
+        })
+        .collect();
+    print::listing(
+        &flat,
+        &["name", "available", "options", "what", "paper", "reason"],
+        format,
+    )
+}
+
+fn adapters(common: &Common) -> anyhow::Result<()> {
+    let infos = catoptric_reflect::adapters();
+    if infos.is_empty() && !common.quiet {
+        eprintln!("catoptric: no graphics adapter; `catoptric doctor` says what is missing");
+    }
+    let row = |info: &catoptric_reflect::AdapterInfo| json!({ "name": info.name, "driver": info.driver, "backend": info.backend, "software": info.software });
+    let rows: Vec<Value> = infos.iter().map(row).collect();
+    print::listing(
+        &rows,
+        &["name", "driver", "backend", "software"],
+        common.format,
+    )
+}

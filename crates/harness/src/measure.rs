@@ -1,0 +1,134 @@
+//! Timing: interleaved samples within a budget, and their summary.
+
+use std::time::{Duration, Instant};
+
+use catoptric_metrics::Timing;
+use catoptric_reflect::{FrameTime, Prepared, ReflectError};
+
+/// Frames before the first that counts.
+const WARM_UP: usize = 2;
+/// Never fewer samples, whatever the budget.
+const FEWEST: usize = 5;
+/// Never more samples, whatever the budget.
+const MOST: usize = 200;
+
+/// All samples of one technique, in the order in which they were taken.
+#[derive(Clone, Debug, Default)]
+pub struct Samples {
+    /// One a timed frame.
+    pub frames: Vec<FrameTime>,
+}
+
+/// Times `techniques` in turn, A B A B …, until the budget is spent: after two warm-up frames
+/// each at least 5 and at most 200 samples. One result a technique, in order: its samples, or the
+/// first error, after which it is left out.
+pub fn interleaved(
+    techniques: &mut [&mut Prepared<'_>],
+    budget: Duration,
+) -> Vec<Result<Samples, ReflectError>> {
+    let mut results: Vec<Result<Samples, ReflectError>> =
+        techniques.iter().map(|_| Ok(Samples::default())).collect();
+    let start = Instant::now();
+    for round in 0..WARM_UP + MOST {
+        if round >= WARM_UP + FEWEST && start.elapsed() >= budget {
+            break;
+        }
+        for (technique, result) in techniques.iter_mut().zip(&mut results) {
+            let Ok(samples) = result else { continue };
+            match technique.time_frame() {
+                Ok(time) if round >= WARM_UP => samples.frames.push(time),
+                Ok(_) => {}
+                Err(error) => *result = Err(error),
+            }
+        }
+    }
+    results
+}
+
+impl Samples {
+    /// GPU time of the frame; `None` unless every sample has one.
+    pub fn gpu(&self) -> Option<Vec<f64>> {
+        let times: Option<Vec<f64>> = self.frames.iter().map(|frame| frame.gpu_ms).collect();
+        times.filter(|times| !times.is_empty())
+    }
+
+    /// Wall time of the frame.
+    pub fn wall(&self) -> Vec<f64> {
+        self.frames.iter().map(|frame| frame.wall_ms).collect()
+    }
+
+    /// Median time of each pass over the samples that have it, or the most recent reason why
+    /// there is none. A pass is only reported if more than half of the samples know their passes.
+    pub fn passes(&self) -> Result<Vec<(String, f64)>, String> {
+        let known: Vec<_> = self
+            .frames
+            .iter()
+            .filter_map(|frame| frame.passes.as_ref())
+            .collect();
+        if 2 * known.len() <= self.frames.len() {
+            let reason = self
+                .frames
+                .iter()
+                .rev()
+                .find_map(|frame| frame.passes_reason.clone());
+            return Err(reason.unwrap_or_else(|| "no frame was timed".to_owned()));
+        }
+        let names = known[0].iter().map(|(name, _)| name);
+        Ok(names
+            .filter_map(|name| {
+                let times = known.iter().filter_map(|passes| {
+                    passes
+                        .iter()
+                        .find(|(other, _)| other == name)
+                        .map(|(_, time)| *time)
+                });
+                Some((name.clone(), Timing::of(&times.collect::<Vec<_>>())?.median))
+            })
+            .collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn frame(gpu_ms: Option<f64>, passes: Option<Vec<(&str, f64)>>) -> FrameTime {
+        let reason = passes.is_none().then(|| "no clock".to_owned());
+        let passes = passes.map(|passes| {
+            passes
+                .into_iter()
+                .map(|(name, time)| (name.to_owned(), time))
+                .collect()
+        });
+        FrameTime {
+            gpu_ms,
+            passes,
+            passes_reason: reason,
+            wall_ms: 1.0,
+        }
+    }
+
+    #[test]
+    fn passes_are_medians_by_name() {
+        let frames = [1.0, 2.0, 9.0]
+            .map(|time| frame(Some(time), Some(vec![("search", time), ("draw", 0.5)])));
+        let samples = Samples {
+            frames: frames.to_vec(),
+        };
+        assert_eq!(
+            samples.passes(),
+            Ok(vec![("search".to_owned(), 2.0), ("draw".to_owned(), 0.5)])
+        );
+        assert_eq!(samples.gpu(), Some(vec![1.0, 2.0, 9.0]));
+    }
+
+    #[test]
+    fn without_a_clock_there_is_a_reason_and_no_number() {
+        let samples = Samples {
+            frames: vec![frame(None, None)],
+        };
+        assert_eq!(samples.passes(), Err("no clock".to_owned()));
+        assert_eq!(samples.gpu(), None);
+        assert_eq!(Samples::default().gpu(), None);
+    }
+}

@@ -1,0 +1,254 @@
+//! The words of the sentence: load → trace the reference → render → compare → time → record.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use catoptric_frame::{Frame, Status as Pixel, TrueVertex};
+use catoptric_metrics::{CompareOptions, Comparison, Timing, VertexReport};
+use catoptric_reference::{NotAvailable, RenderOptions, Tracer, Truth as Bounces, true_vertices};
+use catoptric_reflect::{Gpu, Output, Prepared, Spec, Support};
+use catoptric_scene::{LoadOptions, Scene, SceneError};
+use glam::DVec2;
+
+use crate::exit::bad_input;
+use crate::measure::{self, Samples};
+use crate::record::{AgainstFull, Meta, Raw, Record, Status, Times, Wall, Work};
+
+/// Set by Ctrl-C: what is finished is kept, what is not begun is left out.
+pub static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+
+/// True after Ctrl-C.
+pub fn interrupted() -> bool {
+    INTERRUPTED.load(Ordering::Relaxed)
+}
+
+/// A scene that was asked for: its name, and the scene or why it cannot be had here.
+pub type Loaded = (String, Result<Scene, String>);
+
+/// Loads a scene. One whose model is missing is no error but has nothing to show, with a reason;
+/// anything else that is wrong is the user's to mend.
+pub fn load(name: &str, options: &LoadOptions) -> anyhow::Result<Loaded> {
+    match catoptric_scene::open(name, options) {
+        Ok(scene) => Ok((name.to_owned(), Ok(scene))),
+        Err(error @ SceneError::MissingModel { .. }) => {
+            Ok((name.to_owned(), Err(error.to_string())))
+        }
+        Err(error) => Err(error.into()),
+    }
+}
+
+/// The size of a scene's pictures.
+pub fn size(scene: &Scene) -> [u32; 2] {
+    scene.camera.resolution
+}
+
+/// Refuses a picture that cannot be rendered.
+pub fn check_size(size: [u32; 2], limit: u32, whose: &str) -> anyhow::Result<()> {
+    if size[0].max(size[1]) > limit {
+        let [width, height] = size;
+        return Err(bad_input(format!(
+            "a picture of {width}x{height} pixels is too large: {whose} ends at {limit}"
+        )));
+    }
+    Ok(())
+}
+
+/// What techniques are judged by.
+pub struct Truth {
+    /// Reflected rays see everything but mirrors.
+    pub first: Frame,
+    /// Mirrors are seen in mirrors.
+    pub full: Frame,
+    /// Exact reflection points, by mirror, object and vertex.
+    pub vertices: Result<Vec<TrueVertex>, NotAvailable>,
+}
+
+/// Traces both truths and finds the exact reflection points.
+pub fn trace_reference(scene: &Scene, bounces: u32) -> anyhow::Result<Truth> {
+    let tracer = Tracer::new(scene)?;
+    let first = tracer.render(&RenderOptions::new(size(scene), Bounces::FirstBounce));
+    let full = tracer.render(&RenderOptions::new(size(scene), Bounces::Full { bounces }));
+    let vertices = true_vertices(scene, &scene.camera.view(size(scene)));
+    Ok(Truth {
+        first,
+        full,
+        vertices,
+    })
+}
+
+/// A technique that stands ready, and its picture with all layers.
+pub struct Rendered<'g> {
+    prepared: Prepared<'g>,
+    prepare_ms: f64,
+    /// Picture, vertices, triangles and work.
+    pub output: Output,
+}
+
+/// Why a row has no numbers.
+pub type Blank = (Status, String);
+
+/// Prepares a technique and renders one frame with all layers.
+pub fn render<'g>(gpu: &'g Gpu, spec: &Spec, scene: &Scene) -> Result<Rendered<'g>, Blank> {
+    if let Support::No(reason) = catoptric_reflect::supports(spec, scene) {
+        return Err((Status::NotApplicable, reason));
+    }
+    let failed = |error: catoptric_reflect::ReflectError| (Status::Failed, one_line(&error));
+    let start = Instant::now();
+    let mut prepared = catoptric_reflect::prepare(gpu, spec, scene, size(scene)).map_err(failed)?;
+    let prepare_ms = start.elapsed().as_secs_f64() * 1e3;
+    let output = prepared.render().map_err(failed)?;
+    Ok(Rendered {
+        prepared,
+        prepare_ms,
+        output,
+    })
+}
+
+/// What comparing with the truth yields.
+pub struct Compared {
+    first: Comparison,
+    full: Comparison,
+    vertices: Option<Result<VertexReport, String>>,
+}
+
+/// Compares a technique's picture and reflection points with the truth.
+pub fn compare(scene: &Scene, truth: &Truth, output: &Output) -> Result<Compared, Blank> {
+    let failed = |error: catoptric_metrics::MetricsError| (Status::Failed, error.to_string());
+    let options = CompareOptions::default();
+    let first =
+        catoptric_metrics::compare_with(&truth.first, &output.frame, &options).map_err(failed)?;
+    let full =
+        catoptric_metrics::compare_with(&truth.full, &output.frame, &options).map_err(failed)?;
+    let vertices = output
+        .vertices
+        .as_ref()
+        .map(|results| match &truth.vertices {
+            Err(reason) => Ok(Err(reason.to_string())),
+            Ok(exact) => {
+                let in_view = |pair: usize, at: DVec2| in_view(scene, &truth.first, pair, at);
+                catoptric_metrics::vertex_report(results, exact, in_view).map(Ok)
+            }
+        });
+    Ok(Compared {
+        first,
+        full,
+        vertices: vertices.transpose().map_err(failed)?,
+    })
+}
+
+/// Whether image point `at` lies on a pixel that shows the mirror of entry `pair`.
+fn in_view(scene: &Scene, frame: &Frame, pair: usize, at: DVec2) -> bool {
+    let (Some(primary), Some(reflected)) = (&frame.primary, &frame.reflected) else {
+        return false;
+    };
+    let [width, height] = frame.color.size();
+    if !(at.x >= 0.0 && at.y >= 0.0 && at.x < f64::from(width) && at.y < f64::from(height)) {
+        return false;
+    }
+    let mirror = scene.mirror_id(pair / scene.vertex_count().max(1));
+    let (x, y) = (at.x as u32, at.y as u32);
+    *primary.id.at(x, y) == mirror && *reflected.status.at(x, y) != Pixel::Back
+}
+
+/// Times the techniques that could be rendered, in turn, within the budget; the result has an
+/// entry for each of them, in order.
+pub fn time(
+    rendered: &mut [Result<Rendered<'_>, Blank>],
+    budget: Duration,
+) -> Vec<Option<Result<Samples, Blank>>> {
+    let places: Vec<bool> = rendered.iter().map(Result::is_ok).collect();
+    let mut ready: Vec<&mut Prepared<'_>> = rendered
+        .iter_mut()
+        .filter_map(|row| row.as_mut().ok())
+        .map(|row| &mut row.prepared)
+        .collect();
+    let mut samples = measure::interleaved(&mut ready, budget).into_iter();
+    places
+        .into_iter()
+        .map(|place| place.then(|| samples.next()).flatten())
+        .map(|row| row.map(|row| row.map_err(|error| (Status::Failed, one_line(&error)))))
+        .collect()
+}
+
+/// Fills a row from all that is known.
+pub fn record(
+    mut row: Record,
+    rendered: &Rendered<'_>,
+    compared: Compared,
+    samples: Option<Samples>,
+) -> Record {
+    let Comparison {
+        coverage,
+        object_agreement,
+        mismatch,
+        angular_error_deg,
+        color,
+        non_finite,
+        regions,
+    } = compared.first;
+    if coverage.mirror_pixels == 0 {
+        row.meta
+            .notes
+            .push("no mirror pixel is in view: nothing to compare".to_owned());
+    }
+    row.coverage = Some(coverage);
+    row.object_agreement = object_agreement;
+    row.mismatch = mismatch;
+    row.angular_error_deg = angular_error_deg;
+    row.color = color;
+    row.non_finite = Some(non_finite);
+    row.regions = Some(regions);
+    row.against_full = Some(AgainstFull {
+        object_agreement: compared.full.object_agreement,
+        angular_error_deg: compared.full.angular_error_deg,
+    });
+    match compared.vertices {
+        Some(Ok(report)) => row.vertices = Some(report),
+        Some(Err(reason)) => row.meta.notes.push(reason),
+        None => {}
+    }
+    row.triangles = rendered.output.triangles.clone();
+    row.work = Some(Work::from(&rendered.output));
+    if let Some(samples) = samples {
+        row.time_ms = times(rendered.prepare_ms, &samples);
+        row.raw = Some(Raw {
+            frame_ms: samples.gpu().unwrap_or_default(),
+            wall_ms: samples.wall(),
+        });
+    }
+    row
+}
+
+fn times(prepare: f64, samples: &Samples) -> Option<Times> {
+    let (passes, passes_reason) = match samples.passes() {
+        Ok(passes) => (Some(passes), None),
+        Err(reason) => (None, Some(reason)),
+    };
+    let wall = Timing::of(&samples.wall())?.median;
+    let frame = samples.gpu().and_then(|times| Timing::of(&times));
+    Some(Times {
+        prepare,
+        frame,
+        passes,
+        passes_reason,
+        wall: Wall { median: wall },
+    })
+}
+
+/// An error and its causes in one line.
+pub fn one_line(error: &dyn std::error::Error) -> String {
+    let causes = std::iter::successors(Some(error), |error| error.source());
+    causes
+        .map(ToString::to_string)
+        .collect::<Vec<_>>()
+        .join(": ")
+}
+
+/// Where a row's numbers come from.
+pub fn meta(base: &Meta, scene: Option<&Scene>) -> Meta {
+    Meta {
+        scene_hash: scene.map(|scene| scene.hash.clone()),
+        scene_why: scene.map(|scene| scene.why.clone()),
+        ..base.clone()
+    }
+}

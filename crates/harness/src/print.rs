@@ -1,0 +1,290 @@
+//! Results on stdout.
+
+use std::io::Write;
+
+use anyhow::Context;
+use serde_json::Value;
+
+use crate::cli::Format;
+use crate::gate::lookup;
+use crate::table::Table;
+
+/// Writes text to stdout; a reader that has gone away is no error.
+pub fn text(text: &str) -> anyhow::Result<()> {
+    match std::io::stdout().lock().write_all(text.as_bytes()) {
+        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
+        result => result.context("cannot write to stdout"),
+    }
+}
+
+/// Writes a value as indented JSON.
+pub fn json(value: &Value) -> anyhow::Result<()> {
+    text(&format!("{value:#}\n"))
+}
+
+/// Writes a listing: JSON as it is, else a table of the named members.
+pub fn listing(rows: &[Value], columns: &[&str], format: Format) -> anyhow::Result<()> {
+    if format == Format::Json {
+        return json(&Value::Array(rows.to_vec()));
+    }
+    let mut table = Table::new(columns.iter().copied());
+    for row in rows {
+        table.row(columns.iter().map(|column| cell(row.get(*column))));
+    }
+    text(&table.write(format))
+}
+
+/// Writes names and values, one a line.
+pub fn facts(value: &Value, format: Format) -> anyhow::Result<()> {
+    if format == Format::Json {
+        return json(value);
+    }
+    let mut table = Table::new(["name", "value"]);
+    for (path, value) in leaves(value) {
+        table.row([path, cell(Some(&value))]);
+    }
+    text(&table.write(format))
+}
+
+/// Dotted path and value of everything in an object that is not itself an object.
+pub fn leaves(value: &Value) -> Vec<(String, Value)> {
+    let Some(object) = value.as_object() else {
+        return Vec::new();
+    };
+    let mut found = Vec::new();
+    for (name, member) in object {
+        if member.is_object() {
+            found.extend(
+                leaves(member)
+                    .into_iter()
+                    .map(|(path, leaf)| (format!("{name}.{path}"), leaf)),
+            );
+        } else {
+            found.push((name.clone(), member.clone()));
+        }
+    }
+    found
+}
+
+/// A value as a cell of a table.
+pub fn cell(value: Option<&Value>) -> String {
+    match value {
+        None | Some(Value::Null) => "–".to_owned(),
+        Some(Value::Bool(flag)) => if *flag { "yes" } else { "no" }.to_owned(),
+        Some(Value::String(text)) => text.clone(),
+        Some(Value::Array(items)) => items
+            .iter()
+            .map(|item| cell(Some(item)))
+            .collect::<Vec<_>>()
+            .join(" "),
+        Some(Value::Number(number)) if number.is_f64() => {
+            significant(number.as_f64().unwrap_or(f64::NAN))
+        }
+        Some(other) => other.to_string(),
+    }
+}
+
+/// A number with four significant digits, or whole above a thousand.
+pub fn significant(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let magnitude = value.abs().log10().floor();
+    if magnitude < -4.0 {
+        return format!("{value:.2e}");
+    }
+    let decimals = (3.0 - magnitude).clamp(0.0, 7.0) as usize;
+    format!("{value:.decimals$}")
+}
+
+/// Records as a table for people, or with every metric as CSV.
+pub fn records(rows: &[Value], format: Format) -> anyhow::Result<()> {
+    match format {
+        Format::Json => json(&Value::Array(rows.to_vec())),
+        Format::Csv => text(&every_metric(rows).write(format)),
+        Format::Table | Format::Markdown => text(&summary(rows).write(format)),
+    }
+}
+
+const PERCENT: f64 = 100.0;
+
+/// Heading, path and factor of the columns of the short table.
+const COLUMNS: [(&str, &str, f64); 11] = [
+    ("agree %", "object_agreement", PERCENT),
+    ("missing %", "coverage.missing", PERCENT),
+    ("extra %", "coverage.extra", PERCENT),
+    ("angle p50 °", "angular_error_deg.p50", 1.0),
+    ("angle p99 °", "angular_error_deg.p99", 1.0),
+    ("offset px", "vertices.offset_px.mean", 1.0),
+    ("failed", "vertices.failed", 1.0),
+    ("FLIP", "color.flip", 1.0),
+    ("evals", "work.evaluations", 1.0),
+    ("GPU ms", "time_ms.frame.median", 1.0),
+    ("wall ms", "time_ms.wall.median", 1.0),
+];
+
+/// The metrics that say most, and the reasons of rows without any.
+pub fn summary(rows: &[Value]) -> Table {
+    let headings = COLUMNS.iter().map(|(heading, ..)| *heading);
+    let mut table = Table::new(
+        ["scene", "technique"]
+            .into_iter()
+            .chain(headings)
+            .chain(["remark"]),
+    );
+    for row in rows {
+        let mut cells = vec![cell(row.get("scene")), cell(row.get("technique"))];
+        cells.extend(
+            COLUMNS
+                .iter()
+                .map(|(_, path, factor)| match lookup(row, path) {
+                    Some(value) if value.is_f64() => {
+                        significant(value.as_f64().unwrap_or(f64::NAN) * factor)
+                    }
+                    value => cell(value),
+                }),
+        );
+        cells.push(remark(row));
+        table.row(cells);
+    }
+    if table
+        .rows
+        .iter()
+        .all(|row| row.last().is_some_and(String::is_empty))
+    {
+        table.heading.pop();
+        for row in &mut table.rows {
+            row.pop();
+        }
+    }
+    table
+}
+
+fn remark(row: &Value) -> String {
+    let notes = lookup(row, "meta.notes").and_then(Value::as_array);
+    let notes = notes
+        .into_iter()
+        .flatten()
+        .filter_map(Value::as_str)
+        .map(str::to_owned);
+    let status = row["status"].as_str().filter(|status| *status != "ok");
+    let status = status.map(|status| format!("{status}: {}", row["reason"].as_str().unwrap_or("")));
+    status
+        .into_iter()
+        .chain(notes)
+        .collect::<Vec<_>>()
+        .join("; ")
+}
+
+fn every_metric(rows: &[Value]) -> Table {
+    let flat: Vec<Vec<(String, Value)>> = rows.iter().map(leaves).collect();
+    let mut paths: Vec<String> = [
+        "scene",
+        "technique",
+        "resolution",
+        "truth",
+        "status",
+        "reason",
+    ]
+    .map(str::to_owned)
+    .to_vec();
+    // A row without numbers has `null` where others have an object: its path is not a column.
+    let objects: Vec<String> = flat
+        .iter()
+        .flatten()
+        .filter_map(|(path, _)| Some(path.rsplit_once('.')?.0.to_owned()))
+        .collect();
+    for (path, _) in flat.iter().flatten() {
+        let inner = objects
+            .iter()
+            .any(|object| object == path || object.starts_with(&format!("{path}.")));
+        if !inner && !paths.contains(path) {
+            paths.push(path.clone());
+        }
+    }
+    let mut table = Table::new(paths.iter().cloned());
+    for row in flat {
+        table.row(paths.iter().map(|path| {
+            match row
+                .iter()
+                .find(|(other, _)| other == path)
+                .map(|(_, value)| value)
+            {
+                Some(Value::Number(number)) => number.to_string(),
+                value => cell(value),
+            }
+        }));
+    }
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        let cases = [
+            (0.0, "0"),
+            (0.412345, "0.4123"),
+            (12.3456, "12.35"),
+            (98765.4, "98765"),
+            (1e-7, "1.00e-7"),
+            (-0.5, "-0.5000"),
+        ];
+        for (value, text) in cases {
+            assert_eq!(significant(value), text);
+        }
+    }
+
+    #[test]
+    fn every_metric_has_a_column_and_null_objects_have_none() {
+        let rows = [
+            json!({ "scene": "a", "technique": "t", "color": { "mae": 0.5 }, "work": null }),
+            json!({ "scene": "b", "technique": "t", "color": null, "work": null }),
+        ];
+        let table = every_metric(&rows);
+        assert!(table.heading.contains(&"color.mae".to_owned()));
+        assert!(!table.heading.contains(&"color".to_owned()));
+        assert_eq!(
+            table.rows[0][table
+                .heading
+                .iter()
+                .position(|name| name == "color.mae")
+                .unwrap()],
+            "0.5"
+        );
+    }
+
+    #[test]
+    fn the_short_table_reads_well() {
+        use crate::record::tests::{blank, measured};
+        let rows = [
+            measured("sphere-table", "linear"),
+            blank("teapot-ball", "linear(residual=cross)"),
+        ];
+        let rows: Vec<Value> = rows.iter().map(crate::record::Record::to_value).collect();
+        insta::assert_snapshot!(summary(&rows).write(Format::Table), @"
+        scene         technique               agree %  missing %  extra %  angle p50 °  angle p99 °  offset px  failed     FLIP  evals  GPU ms  wall ms  remark
+        sphere-table  linear                    98.10      1.100        0       0.2500        2.000     0.5000       0  0.05000  400.5   5.000    6.000
+        teapot-ball   linear(residual=cross)        –          –        –            –            –          –       –        –      –       –        –  not-applicable: no such model
+        ");
+    }
+
+    #[test]
+    fn the_remark_column_is_there_when_needed() {
+        let fine =
+            json!({ "scene": "a", "technique": "t", "status": "ok", "object_agreement": 0.981 });
+        let table = summary(std::slice::from_ref(&fine));
+        assert!(!table.heading.contains(&"remark".to_owned()));
+        assert_eq!(table.rows[0][2], "98.10");
+        let failed =
+            json!({ "scene": "a", "technique": "t", "status": "failed", "reason": "lost" });
+        assert_eq!(
+            summary(&[fine, failed]).rows[1].last().unwrap(),
+            "failed: lost"
+        );
+    }
+}

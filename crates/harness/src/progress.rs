@@ -1,0 +1,57 @@
+//! Progress and remarks on stderr, never on stdout.
+
+use std::io::IsTerminal;
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+/// What is said while working: a bar where stderr is a terminal, and remarks unless quiet.
+#[derive(Clone, Debug)]
+pub struct Progress {
+    bar: ProgressBar,
+    quiet: bool,
+}
+
+impl Progress {
+    /// A bar of `steps` steps, hidden if `quiet` or where nobody watches.
+    pub fn new(steps: usize, quiet: bool) -> Self {
+        let visible = !quiet && std::io::stderr().is_terminal();
+        let target = if visible {
+            ProgressDrawTarget::stderr()
+        } else {
+            ProgressDrawTarget::hidden()
+        };
+        let bar = ProgressBar::with_draw_target(Some(steps as u64), target);
+        if let Ok(style) =
+            ProgressStyle::with_template("{bar:28} {pos}/{len} {elapsed:>4} {wide_msg}")
+        {
+            bar.set_style(style);
+        }
+        if visible {
+            bar.enable_steady_tick(Duration::from_millis(250));
+        }
+        Self { bar, quiet }
+    }
+
+    /// Says what is being done now.
+    pub fn doing(&self, what: impl Into<String>) {
+        self.bar.set_message(what.into());
+    }
+
+    /// One step is finished.
+    pub fn step(&self) {
+        self.bar.inc(1);
+    }
+
+    /// A remark that outlives the bar.
+    pub fn remark(&self, text: &str) {
+        if !self.quiet {
+            self.bar.suspend(|| eprintln!("{text}"));
+        }
+    }
+
+    /// Takes the bar away.
+    pub fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}

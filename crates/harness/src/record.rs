@@ -1,0 +1,296 @@
+//! Records: one object a (scene, technique), as written to files and to stdout.
+//!
+//! The JSON is described by `schema/record.schema.json`. A field that does not apply, or was not
+//! measured, is `null`, never a made-up 0.
+
+use std::path::Path;
+
+use anyhow::Context;
+use catoptric_frame::Triangles;
+use catoptric_metrics::{
+    ColorError, Coverage, Mismatch, NonFinite, Regions, Summary, Temporal, Timing, VertexReport,
+};
+use catoptric_reflect::Output;
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
+use serde_json::Value;
+
+use crate::exit::bad_input;
+use crate::schema;
+
+/// Version of the record's shape.
+pub const SCHEMA_VERSION: u32 = 1;
+
+/// What is known about one technique on one scene.
+#[derive(Clone, Debug, Serialize)]
+pub struct Record {
+    /// [`SCHEMA_VERSION`].
+    pub schema_version: u32,
+    /// Built-in name, or the scene file's stem.
+    pub scene: String,
+    /// Canonical name with the options that differ from the defaults.
+    pub technique: String,
+    /// Width and height in pixels.
+    pub resolution: [u32; 2],
+    /// By which truth the technique is judged.
+    pub truth: &'static str,
+    /// Whether there is anything to read below.
+    pub status: Status,
+    /// Why not.
+    pub reason: Option<String>,
+    /// What rendered.
+    pub adapter: Option<Adapter>,
+    /// Which mirror pixels show something they should.
+    pub coverage: Option<Coverage>,
+    /// Share of mirror pixels that show the right object.
+    pub object_agreement: Option<f64>,
+    /// Angle at the mirror between the shown and the true point, degrees.
+    pub angular_error_deg: Option<Summary>,
+    /// Colour errors on the mirror mask.
+    pub color: Option<ColorError>,
+    /// Reflection points against the exact ones.
+    pub vertices: Option<VertexReport>,
+    /// Triangles of a frame.
+    pub triangles: Option<Triangles>,
+    /// Device-independent cost.
+    pub work: Option<Work>,
+    /// Steadiness from frame to frame.
+    pub temporal: Option<Temporal>,
+    /// The same judged by the truth `full`.
+    pub against_full: Option<AgainstFull>,
+    /// What a frame costs.
+    pub time_ms: Option<Times>,
+    /// Where the wrong objects are.
+    pub mismatch: Option<Mismatch>,
+    /// Pixels that no mean includes.
+    pub non_finite: Option<NonFinite>,
+    /// Rim and interior of the mirrors apart, and the whole picture.
+    pub regions: Option<Regions>,
+    /// Where the numbers come from.
+    pub meta: Meta,
+    /// Every timing sample; only in recorded runs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub raw: Option<Raw>,
+}
+
+/// Whether a row holds measurements.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Status {
+    /// It does.
+    Ok,
+    /// The technique does not claim to handle the scene, or the scene's model is missing.
+    NotApplicable,
+    /// Something broke.
+    Failed,
+}
+
+/// What rendered.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Adapter {
+    /// As the driver calls it.
+    pub name: String,
+    /// Driver and version.
+    pub driver: String,
+    /// Graphics interface.
+    pub backend: String,
+    /// A CPU plays the GPU: times say little about a real one.
+    pub software: bool,
+}
+
+/// Means per searched vertex or per mirror pixel; `null` for what the technique does not do.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Work {
+    /// Uses of the error function.
+    pub evaluations: Option<f64>,
+    /// Moves of an iterative search.
+    pub steps: Option<f64>,
+    /// Hierarchy nodes tested.
+    pub node_tests: Option<f64>,
+    /// Map samples along traced rays.
+    pub samples: Option<f64>,
+    /// Steps skipped by an acceleration structure.
+    pub skips: Option<f64>,
+}
+
+impl From<&Output> for Work {
+    fn from(output: &Output) -> Self {
+        let searched = output.vertices.is_some();
+        let hierarchy = output
+            .vertices
+            .iter()
+            .flatten()
+            .any(|vertex| vertex.hole.is_some());
+        Self {
+            evaluations: searched.then_some(output.work.evaluations),
+            steps: searched.then_some(output.work.steps),
+            node_tests: hierarchy.then_some(output.work.node_tests),
+            samples: (!searched).then_some(output.work.samples),
+            skips: (!searched).then_some(output.work.skips),
+        }
+    }
+}
+
+/// Agreement with the truth in which mirrors are seen in mirrors.
+#[derive(Clone, Debug, Serialize)]
+pub struct AgainstFull {
+    /// Share of mirror pixels that show the right object.
+    pub object_agreement: Option<f64>,
+    /// Angle at the mirror between the shown and the true point, degrees.
+    pub angular_error_deg: Option<Summary>,
+}
+
+/// Times, milliseconds.
+#[derive(Clone, Debug, Serialize)]
+pub struct Times {
+    /// Once, before the first frame.
+    pub prepare: f64,
+    /// GPU time of a frame; `None` without a usable clock.
+    pub frame: Option<Timing>,
+    /// Median GPU time by pass, in order.
+    #[serde(serialize_with = "passes")]
+    pub passes: Option<Vec<(String, f64)>>,
+    /// Why there is no time by pass.
+    pub passes_reason: Option<String>,
+    /// As a clock on the wall sees it.
+    pub wall: Wall,
+}
+
+/// Wall time, milliseconds.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Wall {
+    /// The middle sample.
+    pub median: f64,
+}
+
+/// Where the numbers come from.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Meta {
+    /// The command line.
+    pub command: String,
+    /// Source revision, where the program was built from a git checkout.
+    pub revision: Option<String>,
+    /// Of the program.
+    pub version: String,
+    /// Start of the run, UTC.
+    pub date: String,
+    /// Of all that influences the picture.
+    pub scene_hash: Option<String>,
+    /// What the scene is for.
+    pub scene_why: Option<String>,
+    /// Limit of the truth `full`.
+    pub bounces: u32,
+    /// Seconds of timing for the scene, shared by the techniques; `None` where nothing is timed.
+    pub time_budget_s: Option<f64>,
+    /// What a reader of the numbers must know.
+    pub notes: Vec<String>,
+}
+
+/// Every timing sample, in order, milliseconds.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Raw {
+    /// GPU time.
+    pub frame_ms: Vec<f64>,
+    /// Wall time.
+    pub wall_ms: Vec<f64>,
+}
+
+fn passes<S: Serializer>(passes: &Option<Vec<(String, f64)>>, to: S) -> Result<S::Ok, S::Error> {
+    let Some(passes) = passes else {
+        return to.serialize_none();
+    };
+    let mut map = to.serialize_map(Some(passes.len()))?;
+    for (name, time) in passes {
+        map.serialize_entry(name, time)?;
+    }
+    map.end()
+}
+
+impl Record {
+    /// A row with nothing measured.
+    pub fn empty(scene: &str, technique: &str, resolution: [u32; 2], meta: Meta) -> Self {
+        Self {
+            schema_version: SCHEMA_VERSION,
+            scene: scene.to_owned(),
+            technique: technique.to_owned(),
+            resolution,
+            truth: "first-bounce",
+            status: Status::Ok,
+            reason: None,
+            adapter: None,
+            coverage: None,
+            object_agreement: None,
+            angular_error_deg: None,
+            color: None,
+            vertices: None,
+            triangles: None,
+            work: None,
+            temporal: None,
+            against_full: None,
+            time_ms: None,
+            mismatch: None,
+            non_finite: None,
+            regions: None,
+            meta,
+            raw: None,
+        }
+    }
+
+    /// The same row without measurements, with a reason for that.
+    pub fn without(self, status: Status, reason: impl Into<String>) -> Self {
+        let empty = Self::empty(&self.scene, &self.technique, self.resolution, self.meta);
+        Self {
+            status,
+            reason: Some(reason.into()),
+            adapter: self.adapter,
+            ..empty
+        }
+    }
+
+    /// The row as JSON, without the raw samples.
+    pub fn to_value(&self) -> Value {
+        let bare = Self {
+            raw: None,
+            ..self.clone()
+        };
+        serde_json::to_value(bare).expect("a record has only string keys")
+    }
+}
+
+/// Replaces the file at `path` by all rows with their raw samples: it is there whole or not at all.
+pub fn write(rows: &[Record], path: &Path) -> anyhow::Result<()> {
+    let folder = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    let unwritable = || format!("cannot write {}", path.display());
+    let mut file = tempfile::NamedTempFile::new_in(folder).with_context(unwritable)?;
+    serde_json::to_writer_pretty(&mut file, rows).with_context(unwritable)?;
+    std::io::Write::write_all(&mut file, b"\n").with_context(unwritable)?;
+    file.persist(path).with_context(unwritable)?;
+    Ok(())
+}
+
+/// Reads earlier rows, to be compared with.
+pub fn read(path: &Path) -> anyhow::Result<Vec<Value>> {
+    let text =
+        std::fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))?;
+    let value: Value = serde_json::from_str(&text)
+        .map_err(|error| bad_input(format!("{}: {error}", path.display())))?;
+    if let Some(violation) = schema::violations(&schema::records(), &value).first() {
+        return Err(bad_input(format!(
+            "{}: not a record: {violation}",
+            path.display()
+        )));
+    }
+    match value {
+        Value::Array(rows) => Ok(rows),
+        _ => Err(bad_input(format!(
+            "{}: not an array of records",
+            path.display()
+        ))),
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests;

@@ -1,0 +1,129 @@
+//! `catoptric report`: measure a suite of scenes and write one page about it.
+//!
+//! Measuring writes `record.json` and pictures into the folder, after every scene; the page is
+//! made from those alone, so that the same record gives the same bytes.
+
+mod page;
+mod pictures;
+mod plot;
+mod views;
+mod words;
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use anyhow::Context;
+
+use crate::cli::{Common, SuiteArg};
+use crate::exit::{Outcome, bad_input};
+use crate::record::{self, Status};
+use crate::setup::{self, Setup};
+
+/// Scenes of the quick suite: the first is the page's first picture.
+const QUICK_SCENES: [&str; 8] = [
+    "sphere-table",
+    "sphere-objects-20k",
+    "spheres",
+    "ellipsoid",
+    "bowl",
+    "planar",
+    "sphere-square",
+    "sphere-touching",
+];
+
+/// The published search, and ours with the residual that 32 bits can resolve.
+const TECHNIQUES: [&str; 2] = ["linear", "linear(residual=cross,neighbours=8)"];
+
+/// Seconds of timing in a whole quick suite: with all else it stays within three minutes.
+const QUICK_TIMING: f64 = 40.0;
+/// Seconds of timing for each scene of the full suite.
+const FULL_TIMING: f64 = 6.0;
+/// Picture size of the full suite.
+const FULL_RESOLUTION: [u32; 2] = [640, 480];
+
+/// Measures the suite and writes the page, by default into the folder `report`.
+pub fn run(suite: SuiteArg, time_budget: Option<f64>, common: &Common) -> anyhow::Result<Outcome> {
+    let folder = common
+        .output
+        .clone()
+        .unwrap_or_else(|| PathBuf::from("report"));
+    let (scenes, budget, common) = match suite {
+        SuiteArg::Quick => (
+            QUICK_SCENES.map(str::to_owned).to_vec(),
+            QUICK_TIMING / QUICK_SCENES.len() as f64,
+            common.clone(),
+        ),
+        SuiteArg::Full => {
+            let resolution = common.resolution.or(Some(FULL_RESOLUTION));
+            (
+                available(common),
+                FULL_TIMING,
+                Common {
+                    resolution,
+                    ..common.clone()
+                },
+            )
+        }
+    };
+    let techniques = TECHNIQUES.map(str::to_owned);
+    let setup = Setup::new(
+        &scenes,
+        &techniques,
+        Duration::from_secs_f64(time_budget.unwrap_or(budget)),
+        &common,
+    )?;
+    make_folder(&folder)?;
+
+    let record_path = folder.join("record.json");
+    let rows = crate::measure(&setup, |measured, rows| {
+        if let Some(measured) = measured {
+            pictures::write(&measured, &folder)?;
+        }
+        record::write(rows, &record_path)
+    })?;
+    let index = page::write(&rows, &folder)?;
+
+    crate::print::text(&format!("{}\n", index.display()))?;
+    let failed = rows
+        .iter()
+        .filter(|row| row.status == Status::Failed)
+        .count();
+    if failed > 0 {
+        eprintln!(
+            "catoptric: {failed} of {} rows failed; the report says why",
+            rows.len()
+        );
+    }
+    Ok(
+        if failed > 0 || rows.len() < scenes.len() * techniques.len() {
+            Outcome::FellShort
+        } else {
+            Outcome::Done
+        },
+    )
+}
+
+/// Names of the built-in scenes whose models are here.
+fn available(common: &Common) -> Vec<String> {
+    let infos = catoptric_scene::builtin::list(&setup::load_options(common));
+    infos
+        .into_iter()
+        .filter(|info| info.available)
+        .map(|info| info.name)
+        .collect()
+}
+
+/// Makes the report's folder, empty of an earlier report's pictures.
+fn make_folder(folder: &Path) -> anyhow::Result<()> {
+    let unwritable = |error: std::io::Error| {
+        bad_input(format!("cannot write into {}: {error}", folder.display()))
+    };
+    std::fs::create_dir_all(folder).map_err(unwritable)?;
+    tempfile::NamedTempFile::new_in(folder).map_err(unwritable)?;
+    let pictures = folder.join(pictures::FOLDER);
+    if pictures.exists() {
+        std::fs::remove_dir_all(&pictures)
+            .with_context(|| format!("cannot empty {}", pictures.display()))?;
+    }
+    std::fs::create_dir_all(&pictures).map_err(unwritable)
+}

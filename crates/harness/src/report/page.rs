@@ -1,0 +1,206 @@
+//! The page itself: the record and the names of its pictures in, `index.html` out.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+use askama::Template;
+
+use crate::record::{Record, Status};
+
+use super::views::{self, Fact, SUMMARY, Scene, SummaryRow};
+use super::{pictures, plot, words};
+
+/// Everything that the template shows.
+#[derive(Template)]
+#[template(path = "report.html")]
+struct Page<'r> {
+    techniques: Vec<Fact>,
+    lead: Vec<String>,
+    hero: Option<Hero<'r>>,
+    headings: &'static [(&'static str, &'static str)],
+    summary: Vec<SummaryRow>,
+    scatter: Option<String>,
+    scenes: &'r [Scene],
+    angle_labels: &'static [&'static str],
+    scale: &'static str,
+    coverage: Vec<Fact>,
+    software: Option<String>,
+    environment: Vec<Fact>,
+    command: String,
+    wall_clock: bool,
+}
+
+/// The first picture of the page.
+struct Hero<'r> {
+    scene: &'r Scene,
+    technique: &'r views::Technique,
+}
+
+/// Writes `index.html` into the report's folder.
+pub fn write(rows: &[Record], folder: &Path) -> anyhow::Result<PathBuf> {
+    let path = folder.join("index.html");
+    let unwritable = || format!("cannot write {}", path.display());
+    let mut file = tempfile::NamedTempFile::new_in(folder).with_context(unwritable)?;
+    file.write_all(render(rows)?.as_bytes())
+        .with_context(unwritable)?;
+    file.persist(&path).with_context(unwritable)?;
+    Ok(path)
+}
+
+/// The page as text.
+pub fn render(rows: &[Record]) -> anyhow::Result<String> {
+    let techniques = views::techniques(rows);
+    let scenes = views::scenes(rows, &techniques);
+    let hero = scenes.iter().find_map(|scene| {
+        Some(Hero {
+            scene,
+            technique: scene.techniques.first()?,
+        })
+    });
+    let adapter = rows.iter().find_map(|row| row.adapter.as_ref());
+    let page = Page {
+        lead: words::lead(rows, &techniques),
+        hero,
+        headings: &SUMMARY,
+        summary: views::summary(rows, &techniques),
+        scatter: plot::error_against_time(&views::points(rows, &techniques))?,
+        scenes: &scenes,
+        angle_labels: &pictures::ANGLE_LABELS,
+        scale: pictures::SCALE,
+        coverage: coverage_legend(),
+        software: adapter
+            .filter(|adapter| adapter.software)
+            .map(|adapter| adapter.name.clone()),
+        environment: environment(rows),
+        command: rows
+            .first()
+            .map(|row| row.meta.command.clone())
+            .unwrap_or_default(),
+        wall_clock: rows.iter().any(|row| {
+            row.time_ms
+                .as_ref()
+                .is_some_and(|times| times.frame.is_none())
+        }),
+        techniques: techniques
+            .iter()
+            .map(|name| Fact {
+                name: name.clone(),
+                value: views::color(name, &techniques).to_owned(),
+            })
+            .collect(),
+    };
+    page.render().context("filling the report's template")
+}
+
+fn coverage_legend() -> Vec<Fact> {
+    let colors = pictures::coverage_colors();
+    let hex = colors
+        .iter()
+        .map(|[red, green, blue]| format!("#{red:02x}{green:02x}{blue:02x}"));
+    let labels = pictures::COVERAGE_LABELS.iter();
+    labels
+        .zip(hex)
+        .map(|(label, value)| Fact {
+            name: (*label).to_owned(),
+            value,
+        })
+        .collect()
+}
+
+fn environment(rows: &[Record]) -> Vec<Fact> {
+    let mut facts = Vec::new();
+    let mut fact = |name: &str, value: String| {
+        facts.push(Fact {
+            name: name.to_owned(),
+            value,
+        })
+    };
+    if let Some(adapter) = rows.iter().find_map(|row| row.adapter.as_ref()) {
+        let kind = if adapter.software {
+            "a CPU playing the GPU"
+        } else {
+            "hardware"
+        };
+        fact("adapter", format!("{} ({kind})", adapter.name));
+        fact("driver", adapter.driver.clone());
+        fact("backend", adapter.backend.clone());
+    }
+    if let Some(row) = rows.first() {
+        let meta = &row.meta;
+        fact("program", format!("catoptric {}", meta.version));
+        fact(
+            "revision",
+            meta.revision
+                .clone()
+                .unwrap_or_else(|| "unknown".to_owned()),
+        );
+        fact("measured", meta.date.replace('T', " ").replace('Z', " UTC"));
+        fact("truth `full`", format!("up to {} bounces", meta.bounces));
+        if let Some(seconds) = meta.time_budget_s {
+            fact(
+                "timing",
+                format!("{seconds} s a scene, shared by the techniques"),
+            );
+        }
+    }
+    for row in rows.iter().filter(|row| row.status == Status::Ok) {
+        let hash = row.meta.scene_hash.as_deref().unwrap_or("unknown");
+        let [width, height] = row.resolution;
+        let value = format!("{width} × {height}, {}", hash.get(..16).unwrap_or(hash));
+        let name = format!("scene {}", row.scene);
+        if !facts.iter().any(|fact| fact.name == name) {
+            facts.push(Fact { name, value });
+        }
+    }
+    facts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::tests::{blank, measured};
+
+    #[test]
+    fn the_same_record_gives_the_same_bytes() {
+        let rows = [measured("a-scene", "linear"), blank("other", "linear")];
+        assert_eq!(render(&rows).unwrap(), render(&rows).unwrap());
+    }
+
+    #[test]
+    fn numbers_reasons_and_pictures_are_on_the_page() {
+        let html = render(&[
+            measured("a-scene", "linear(residual=cross)"),
+            blank("other", "linear"),
+        ])
+        .unwrap();
+        for text in [
+            "98.1 %",
+            "no such model",
+            "pictures/a-scene/linear-residual-cross.angle.png",
+            "prefers-color-scheme",
+        ] {
+            assert!(html.contains(text), "{text}");
+        }
+        assert_eq!(
+            html.matches("<img ").count(),
+            html.matches(" alt=\"").count(),
+            "every picture has an alt text"
+        );
+        assert!(
+            !html.contains("http://") && !html.contains("https://"),
+            "nothing is fetched"
+        );
+    }
+
+    #[test]
+    fn names_cannot_break_out_of_the_page() {
+        let html = render(&[measured("<script>x</script>", "linear")]).unwrap();
+        assert!(!html.contains("<script>x"));
+    }
+
+    #[test]
+    fn an_empty_record_is_a_page() {
+        assert!(render(&[]).unwrap().contains("</html>"));
+    }
+}

@@ -1,0 +1,343 @@
+//! Numbers said in sentences.
+
+use catoptric_metrics::paired;
+
+use crate::print::significant;
+use crate::record::{Record, Status};
+
+/// A share as per cent: never rounded to 0 or 100 unless it is.
+pub fn percent(share: f64) -> String {
+    let value = 100.0 * share;
+    if value > 0.0 && value < 0.01 {
+        "under 0.01 %".to_owned()
+    } else if value < 100.0 && value > 99.99 {
+        "over 99.99 %".to_owned()
+    } else if value == 0.0 || value == 100.0 {
+        format!("{value:.0} %")
+    } else if !(1.0..=99.0).contains(&value) {
+        format!("{value:.2} %")
+    } else {
+        format!("{value:.1} %")
+    }
+}
+
+/// A whole number with thin spaces between its thousands.
+pub fn count(value: u64) -> String {
+    let digits = value.to_string();
+    let mut text = String::new();
+    for (place, digit) in digits.chars().enumerate() {
+        if place > 0 && (digits.len() - place).is_multiple_of(3) {
+            text.push('\u{2009}');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// A share for a table: signs instead of words.
+pub fn share(value: Option<f64>) -> String {
+    let text = value.map_or_else(|| "–".to_owned(), percent);
+    text.replace("under ", "< ").replace("over ", "> ")
+}
+
+/// Three significant digits: enough for a sentence.
+fn short(value: f64) -> String {
+    if !(1e-4..1000.0).contains(&value.abs()) {
+        return significant(value);
+    }
+    let decimals = (2.0 - value.abs().log10().floor()).clamp(0.0, 6.0) as usize;
+    let text = format!("{value:.decimals$}");
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    }
+}
+
+/// A value or a dash.
+pub fn or_dash(value: Option<f64>) -> String {
+    value.map_or_else(|| "–".to_owned(), significant)
+}
+
+/// What a row's numbers mean, a sentence each.
+pub fn sentences(row: &Record) -> Vec<String> {
+    [
+        agreement(row),
+        angles(row),
+        coverage(row),
+        vertices(row),
+        cost(row),
+        full(row),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+fn agreement(row: &Record) -> Option<String> {
+    let pixels = row.coverage.as_ref()?.mirror_pixels;
+    let Some(agreement) = row.object_agreement else {
+        return Some("No mirror pixel is in view, so there is nothing to compare.".to_owned());
+    };
+    let mut text = format!(
+        "The right object is shown on {} of {} mirror pixels",
+        percent(agreement),
+        count(pixels)
+    );
+    if let Some(mismatch) = row
+        .mismatch
+        .filter(|mismatch| mismatch.boundary + mismatch.interior > 0.0)
+    {
+        let boundary = mismatch.boundary / (mismatch.boundary + mismatch.interior);
+        text += &format!(
+            "; {} of the others lie at the outline of a reflected object, where half a pixel decides",
+            percent(boundary)
+        );
+    }
+    Some(text + ".")
+}
+
+fn angles(row: &Record) -> Option<String> {
+    let angle = row.angular_error_deg?;
+    Some(format!(
+        "Where it is the right object, half of the pixels show a point within {}° of the true one, \
+         99 % within {}°; the worst is {}° off.",
+        short(angle.p50),
+        short(angle.p99),
+        short(angle.max)
+    ))
+}
+
+fn coverage(row: &Record) -> Option<String> {
+    let coverage = row.coverage.as_ref()?;
+    let because = |reason: &'static str| if row.triangles.is_some() { reason } else { "" };
+    let mut parts = Vec::new();
+    if let Some(missing) = coverage.missing.filter(|share| *share > 0.0) {
+        let reason = because(
+            ": a triangle is dropped as soon as one of its corners is hidden, and a straight edge cannot follow a \
+             curved outline",
+        );
+        parts.push(format!(
+            "{} of the mirror pixels miss a reflection that is there{reason}",
+            percent(missing)
+        ));
+    }
+    if let Some(extra) = coverage.extra.filter(|share| *share > 0.0) {
+        let reason = because(", the same straight edges bulging outwards");
+        parts.push(format!(
+            "{} show an object where there is only background{reason}",
+            percent(extra)
+        ));
+    }
+    if let Some(cracks) = coverage.cracks.filter(|cracks| *cracks > 0) {
+        let plural = if cracks == 1 {
+            "crack opens"
+        } else {
+            "cracks open"
+        };
+        parts.push(format!(
+            "{} {plural} between neighbouring triangles",
+            count(cracks)
+        ));
+    }
+    if let Some(unresolved) = coverage.unresolved.filter(|share| *share > 0.0) {
+        parts.push(format!("{} have no answer", percent(unresolved)));
+    }
+    (!parts.is_empty()).then(|| capitalized(&parts.join("; ")) + ".")
+}
+
+fn capitalized(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| {
+        first.to_uppercase().chain(letters).collect()
+    })
+}
+
+fn vertices(row: &Record) -> Option<String> {
+    let vertices = row.vertices.as_ref()?;
+    let mut text = format!(
+        "Of {} searched vertices {} truly have a reflection in view",
+        count(vertices.searched),
+        count(vertices.reflected)
+    );
+    match vertices.offset_px {
+        Some(offset) => {
+            text += &format!(
+                "; the search ends {} px from it on average ({} px at the worst)",
+                short(offset.mean),
+                short(offset.max)
+            );
+            text += if offset.mean < 0.45 {
+                ", which is as near as whole pixels get (0.38 px if the point falls anywhere in its pixel)"
+            } else {
+                ", where choosing the nearest whole pixel would give 0.38 px"
+            };
+        }
+        None if vertices.reflected > 0 => text += ", none of which was found",
+        None => {}
+    }
+    if vertices.failed > 0 {
+        text += &format!(
+            "; for {} of them it reports failure",
+            count(vertices.failed)
+        );
+    }
+    Some(text + ".")
+}
+
+fn cost(row: &Record) -> Option<String> {
+    let times = row.time_ms.as_ref()?;
+    let work = row
+        .work
+        .and_then(|work| work.evaluations)
+        .map_or_else(String::new, |evaluations| {
+            format!(
+                " Each searched vertex takes {} evaluations of the error function on average.",
+                short(evaluations)
+            )
+        });
+    let Some(frame) = times.frame else {
+        return Some(format!(
+            "A frame takes {} ms by the wall clock.{work}",
+            short(times.wall.median)
+        ));
+    };
+    let mut text = format!(
+        "A frame takes {} ms (median of {}, ± {} MAD)",
+        short(frame.median),
+        frame.samples,
+        short(frame.mad)
+    );
+    let longest = times
+        .passes
+        .as_ref()
+        .and_then(|passes| passes.iter().max_by(|a, b| a.1.total_cmp(&b.1)));
+    if let (Some((name, time)), true) = (longest, frame.median > 0.0) {
+        text += &format!(
+            ", {} of it in the pass <i>{}</i>",
+            percent((time / frame.median).min(1.0)),
+            escape(name)
+        );
+    }
+    Some(format!("{text}.{work}"))
+}
+
+fn full(row: &Record) -> Option<String> {
+    let (first, full) = (
+        row.object_agreement?,
+        row.against_full.as_ref()?.object_agreement?,
+    );
+    // Less is a difference in how a handful of pixels round.
+    ((first - full).abs() > 1e-4).then(|| {
+        format!(
+            "Judged by a truth in which mirrors see mirrors, agreement is {} instead of {}: \
+             the price of assuming that they do not.",
+            percent(full),
+            percent(first)
+        )
+    })
+}
+
+/// Whether the times of two techniques, taken in turn on one scene, differ.
+pub fn time_difference(a: &Record, b: &Record) -> Option<String> {
+    let (first, second) = (a.raw.as_ref()?, b.raw.as_ref()?);
+    let clock = !first.frame_ms.is_empty() && !second.frame_ms.is_empty();
+    let (first, second) = if clock {
+        (&first.frame_ms, &second.frame_ms)
+    } else {
+        (&first.wall_ms, &second.wall_ms)
+    };
+    let difference = paired(first, second)?;
+    let (a, b) = (&a.technique, &b.technique);
+    Some(if difference.significant {
+        let word = if difference.median > 0.0 {
+            "slower"
+        } else {
+            "faster"
+        };
+        format!(
+            "{b} is {} ms {word} than {a} (95 % interval of the paired median: {} to {} ms).",
+            short(difference.median.abs()),
+            short(difference.low),
+            short(difference.high)
+        )
+    } else {
+        format!(
+            "No difference in time between {b} and {a} is shown: the paired interval includes zero."
+        )
+    })
+}
+
+/// The page's first paragraph: how good each technique is over all scenes.
+pub fn lead(rows: &[Record], techniques: &[String]) -> Vec<String> {
+    techniques
+        .iter()
+        .filter_map(|technique| {
+            let mut found: Vec<(f64, &str)> = rows
+                .iter()
+                .filter(|row| row.technique == *technique && row.status == Status::Ok)
+                .filter_map(|row| Some((row.object_agreement?, row.scene.as_str())))
+                .collect();
+            found.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let ((low, worst), (high, best)) = (found.first()?, found.last()?);
+            Some(if found.len() == 1 {
+                format!("<b>{}</b> shows the right object on {} of the mirror pixels.", escape(technique), percent(*low))
+            } else {
+                format!(
+                    "<b>{}</b> shows the right object on {} (<i>{}</i>) to {} (<i>{}</i>) of the mirror pixels.",
+                    escape(technique), percent(*low), escape(worst), percent(*high), escape(best)
+                )
+            })
+        })
+        .collect()
+}
+
+/// Text as it may stand in HTML.
+pub fn escape(text: &str) -> String {
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn per_cent_is_never_rounded_to_all_or_nothing() {
+        let cases = [
+            (0.0, "0 %"),
+            (1.0, "100 %"),
+            (0.981, "98.1 %"),
+            (0.00003, "under 0.01 %"),
+            (0.99999, "over 99.99 %"),
+            (0.0045, "0.45 %"),
+        ];
+        for (share, text) in cases {
+            assert_eq!(percent(share), text);
+        }
+    }
+
+    #[test]
+    fn sentences_have_three_digits() {
+        let cases = [
+            (0.11504, "0.115"),
+            (300.0, "300"),
+            (0.5, "0.5"),
+            (12.345, "12.3"),
+            (4567.8, "4568"),
+            (0.0, "0"),
+        ];
+        for (value, text) in cases {
+            assert_eq!(short(value), text);
+        }
+    }
+
+    #[test]
+    fn counts_have_thin_spaces() {
+        assert_eq!(
+            [5, 999, 1000, 1_234_567].map(count),
+            ["5", "999", "1\u{2009}000", "1\u{2009}234\u{2009}567"]
+        );
+    }
+}

@@ -1,0 +1,186 @@
+//! Everything that measuring needs, checked before anything is rendered.
+
+use std::path::Path;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+use anyhow::Context;
+use catoptric_reflect::{Gpu, Prefer, Spec};
+use catoptric_scene::{LoadOptions, Scene};
+
+use crate::cli::Common;
+use crate::exit::bad_input;
+use crate::measure::Samples;
+use crate::pipeline::{self, Blank, Compared, Loaded, Rendered};
+use crate::progress::Progress;
+use crate::provenance;
+use crate::record::{Adapter, Meta, Record, Status};
+
+/// A checked request: scenes × techniques on an adapter.
+pub struct Setup {
+    /// In the order asked for.
+    pub scenes: Vec<Loaded>,
+    /// In the order asked for.
+    pub techniques: Vec<Spec>,
+    /// What renders.
+    pub gpu: Gpu,
+    /// Limit of the truth `full`.
+    pub bounces: u32,
+    /// Timing for each scene, shared by the techniques.
+    pub time_budget: Duration,
+    /// What is said while working.
+    pub progress: Progress,
+    meta: Meta,
+    resolution: Option<[u32; 2]>,
+}
+
+impl Setup {
+    /// Loads scenes, parses techniques, opens the adapter: the input's faults first.
+    pub fn new(
+        scenes: &[String],
+        techniques: &[String],
+        time_budget: Duration,
+        common: &Common,
+    ) -> anyhow::Result<Self> {
+        let techniques = techniques
+            .iter()
+            .map(|text| parse(text))
+            .collect::<anyhow::Result<Vec<_>>>()?;
+        let options = load_options(common);
+        let scenes = scenes
+            .iter()
+            .map(|name| pipeline::load(name, &options))
+            .collect::<anyhow::Result<Vec<_>>>()?;
+        let gpu = open_gpu(common)?;
+        let limit = gpu.info().max_texture_size;
+        for scene in scenes.iter().filter_map(|(_, scene)| scene.as_ref().ok()) {
+            pipeline::check_size(pipeline::size(scene), limit, "this adapter")?;
+        }
+        let progress = Progress::new(2 * scenes.len() * techniques.len(), common.quiet);
+        if gpu.info().software {
+            let name = &gpu.info().name;
+            progress.remark(&format!(
+                "{name} renders on the CPU: its times say little about a GPU"
+            ));
+        }
+        keep_what_is_finished(&progress);
+        Ok(Self {
+            scenes,
+            techniques,
+            gpu,
+            bounces: common.bounces,
+            time_budget,
+            progress,
+            meta: provenance::meta(common.bounces, Some(time_budget.as_secs_f64())),
+            resolution: common.resolution,
+        })
+    }
+
+    /// Rows of a scene that cannot be had.
+    pub fn unavailable(&self, name: &str, reason: &str) -> Vec<Record> {
+        let row = |spec: &Spec| {
+            let meta = pipeline::meta(&self.meta, None);
+            // A scene that could not be loaded has no picture size of its own to tell.
+            let size = self.resolution.unwrap_or(DEFAULT_RESOLUTION);
+            Record {
+                adapter: Some(self.adapter()),
+                ..Record::empty(name, &spec.to_string(), size, meta)
+            }
+            .without(Status::NotApplicable, reason)
+        };
+        self.techniques.iter().map(row).collect()
+    }
+
+    /// The row of a technique, whatever became of it.
+    pub fn record(
+        &self,
+        scene: &Scene,
+        spec: &Spec,
+        rendered: &Result<Rendered<'_>, Blank>,
+        compared: Result<Compared, Blank>,
+        samples: Option<Result<Samples, Blank>>,
+    ) -> Record {
+        let meta = pipeline::meta(&self.meta, Some(scene));
+        let row = Record::empty(&scene.name, &spec.to_string(), pipeline::size(scene), meta);
+        let row = Record {
+            adapter: Some(self.adapter()),
+            ..row
+        };
+        let blank = |row: Record, (status, reason): Blank| row.without(status, reason);
+        match (rendered, compared, samples.transpose()) {
+            (Err(reason), ..) => blank(row, reason.clone()),
+            (_, Err(reason), _) | (_, _, Err(reason)) => blank(row, reason),
+            (Ok(rendered), Ok(compared), Ok(samples)) => {
+                pipeline::record(row, rendered, compared, samples)
+            }
+        }
+    }
+
+    /// The adapter as records have it.
+    pub fn adapter(&self) -> Adapter {
+        let info = self.gpu.info();
+        Adapter {
+            name: info.name.clone(),
+            driver: info.driver.clone(),
+            backend: info.backend.clone(),
+            software: info.software,
+        }
+    }
+}
+
+/// Width and height where neither scene nor command line says.
+const DEFAULT_RESOLUTION: [u32; 2] = [640, 480];
+
+/// A technique by its name.
+pub fn parse(text: &str) -> anyhow::Result<Spec> {
+    catoptric_reflect::parse(text).with_context(|| format!("technique `{text}`"))
+}
+
+/// Opens the adapter asked for; without a wish, hardware first.
+pub fn open_gpu(common: &Common) -> anyhow::Result<Gpu> {
+    Ok(Gpu::new(common.adapter.as_deref(), Prefer::Hardware)?)
+}
+
+/// How scenes are loaded under these options.
+pub fn load_options(common: &Common) -> LoadOptions {
+    LoadOptions {
+        models: common.models.clone(),
+        resolution: common.resolution,
+    }
+}
+
+/// Refuses a file that could not be written, before any work is done.
+pub fn check_writable(path: &Path) -> anyhow::Result<()> {
+    let folder = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    if path.is_dir() {
+        return Err(bad_input(format!(
+            "cannot write {}: it is a folder",
+            path.display()
+        )));
+    }
+    match tempfile::NamedTempFile::new_in(folder) {
+        Ok(_) => Ok(()),
+        Err(error) => Err(bad_input(format!(
+            "cannot write {}: {error}",
+            path.display()
+        ))),
+    }
+}
+
+/// From now on Ctrl-C asks to stop after what is being done, a second one stops at once.
+fn keep_what_is_finished(progress: &Progress) {
+    let speaker = progress.clone();
+    let handler = move || {
+        if pipeline::INTERRUPTED.swap(true, Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+        speaker.remark(
+            "interrupted: finishing this scene, then keeping what there is (again to stop at once)",
+        );
+    };
+    // Without the handler an interrupt ends the program at once, which is no reason to refuse work.
+    let _ = ctrlc::set_handler(handler);
+}

@@ -1,0 +1,250 @@
+//! Commands that need an adapter; skipped where there is none, unless `CATOPTRIC_REQUIRE_GPU=1`.
+
+#[path = "../src/schema.rs"]
+#[allow(
+    dead_code,
+    reason = "a module of the program, of which only the check is needed here"
+)]
+mod schema;
+mod support;
+
+use serde_json::Value;
+use support::{SIZE, catoptric, code, gpu_or_skip, json, stderr, stdout};
+
+#[test]
+fn records_keep_to_the_schema_in_the_order_asked_for() {
+    if !gpu_or_skip() {
+        return;
+    }
+    let cross = "linear(residual=cross)";
+    let args = [
+        "compare",
+        "sphere-square",
+        "teapot-ball",
+        "spheres",
+        "-t",
+        "linear",
+        "-t",
+        cross,
+    ];
+    let output = catoptric(
+        &[
+            &args,
+            SIZE.as_slice(),
+            &["--format", "json", "--time-budget", "0.1"],
+        ]
+        .concat(),
+    );
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let rows = json(&output);
+    assert_eq!(
+        schema::violations(&schema::records(), &rows),
+        Vec::<String>::new()
+    );
+    let names = |row: &Value| {
+        format!("{} {} {}", row["scene"], row["technique"], row["status"]).replace('"', "")
+    };
+    let found: Vec<String> = rows.as_array().into_iter().flatten().map(names).collect();
+    let expected = ["sphere-square", "teapot-ball", "spheres"]
+        .into_iter()
+        .flat_map(|scene| {
+            let status = if scene == "teapot-ball" {
+                "not-applicable"
+            } else {
+                "ok"
+            };
+            ["linear", cross].map(|technique| format!("{scene} {technique} {status}"))
+        });
+    assert_eq!(found, expected.collect::<Vec<_>>());
+    assert!(rows[0]["coverage"]["mirror_pixels"].as_u64() > Some(100));
+    assert!(
+        rows[0]["vertices"]["searched"] == 4 && rows[0]["work"]["evaluations"].as_f64() > Some(1.0)
+    );
+    assert!(rows[0]["time_ms"]["wall"]["median"].as_f64() > Some(0.0));
+    assert!(rows[2]["reason"].is_string() && rows[2]["coverage"].is_null());
+}
+
+#[test]
+fn a_gate_trips_and_the_row_is_printed_all_the_same() {
+    if !gpu_or_skip() {
+        return;
+    }
+    let run = |gate: &str| {
+        let args = [
+            "compare",
+            "sphere-square",
+            "-t",
+            "linear",
+            "--time-budget",
+            "0.1",
+            "--format",
+            "json",
+        ];
+        catoptric(&[&args, SIZE.as_slice(), &["--require", gate]].concat())
+    };
+    let held = run("object_agreement>=0");
+    assert_eq!(code(&held), 0, "{}", stderr(&held));
+    let tripped = run("object_agreement>=1.1");
+    assert_eq!(code(&tripped), 1);
+    assert!(
+        stderr(&tripped).contains("object_agreement >= 1.1"),
+        "{}",
+        stderr(&tripped)
+    );
+    assert_eq!(json(&tripped).as_array().map(Vec::len), Some(1));
+    assert_eq!(
+        code(&run("temporal.jumps<=1")),
+        1,
+        "a metric that is null holds nothing"
+    );
+}
+
+#[test]
+fn a_run_compared_with_itself_is_unchanged_but_for_time() {
+    if !gpu_or_skip() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder
+        .path()
+        .join("record.json")
+        .to_string_lossy()
+        .into_owned();
+    let args = [
+        &[
+            "compare",
+            "sphere-square",
+            "-t",
+            "linear",
+            "--time-budget",
+            "0.1",
+        ],
+        SIZE.as_slice(),
+    ]
+    .concat();
+    assert_eq!(
+        code(&catoptric(&[args.as_slice(), &["-o", &path]].concat())),
+        0
+    );
+    let kept: Value =
+        serde_json::from_slice(&std::fs::read(&path).expect("a record")).expect("JSON");
+    assert_eq!(
+        schema::violations(&schema::records(), &kept),
+        Vec::<String>::new()
+    );
+    assert!(
+        kept[0]["raw"]["wall_ms"]
+            .as_array()
+            .is_some_and(|samples| samples.len() >= 5)
+    );
+    let again = catoptric(&[args.as_slice(), &["--against", &path, "--format", "csv"]].concat());
+    let changed = stdout(&again)
+        .lines()
+        .skip(1)
+        .filter(|line| !line.contains(",time_ms"));
+    assert!(
+        changed.clone().all(|line| line.contains("unchanged")),
+        "{}",
+        stdout(&again)
+    );
+}
+
+#[test]
+fn a_technique_renders_a_picture_with_all_layers() {
+    if !gpu_or_skip() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    for name in ["a.exr", "a.png"] {
+        let path = at(name);
+        let output = catoptric(
+            &[
+                &["render", "spheres", "-t", "linear", "-o", &path],
+                SIZE.as_slice(),
+            ]
+            .concat(),
+        );
+        assert_eq!((code(&output), stdout(&output)), (0, ""), "{output:?}");
+    }
+    let facts = json(&catoptric(&[
+        "diff",
+        &at("a.exr"),
+        &at("a.exr"),
+        "--format",
+        "json",
+    ]));
+    assert!(facts["object_agreement"] == 1.0, "{facts}");
+    let limit = catoptric(&[
+        "render",
+        "spheres",
+        "-t",
+        "linear",
+        "--resolution",
+        "60000x8",
+        "-o",
+        &at("b.exr"),
+    ]);
+    assert_eq!(code(&limit), 2, "{limit:?}");
+}
+
+#[test]
+fn a_report_is_one_folder_that_needs_nothing_else() {
+    if !gpu_or_skip() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("out");
+    let output = catoptric(
+        &[
+            &[
+                "report",
+                "--quiet",
+                "--time-budget",
+                "0.1",
+                "-o",
+                &path.to_string_lossy(),
+            ],
+            SIZE.as_slice(),
+        ]
+        .concat(),
+    );
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let page = std::fs::read_to_string(path.join("index.html")).expect("a page");
+    assert!(!page.contains("http://") && !page.contains("https://"));
+    let sources = page
+        .split("src=\"")
+        .skip(1)
+        .filter_map(|rest| rest.split('"').next());
+    assert!(sources.clone().count() > 20);
+    for source in sources {
+        assert!(path.join(source).is_file(), "{source}");
+    }
+    let rows: Value =
+        serde_json::from_slice(&std::fs::read(path.join("record.json")).expect("a record"))
+            .expect("JSON");
+    let mut scenes: Vec<&str> = rows
+        .as_array()
+        .into_iter()
+        .flatten()
+        .filter(|row| row["status"] == "ok")
+        .filter_map(|row| row["scene"].as_str())
+        .collect();
+    scenes.dedup();
+    assert!(scenes.len() >= 6, "{scenes:?}");
+}
+
+#[test]
+fn doctor_tests_the_clock() {
+    if !gpu_or_skip() {
+        return;
+    }
+    let facts = json(&catoptric(&["doctor", "--format", "json"]));
+    assert!(
+        facts["adapter"]["name"]
+            .as_str()
+            .is_some_and(|name| !name.is_empty()),
+        "{facts}"
+    );
+    assert!(!facts["timestamps"].is_null() && !facts["limits"].is_null());
+}

@@ -110,7 +110,8 @@ pub struct CompareArgs {
     /// Such as `linear(residual=cross)`; several are allowed (`list techniques`)
     #[arg(short, long = "technique", value_name = "TECHNIQUE", required = true, num_args = 1..)]
     pub techniques: Vec<String>,
-    /// Earlier results (JSON): say what got better or worse
+    /// Earlier results (JSON): say what got better or worse (with --format json on stderr, with csv
+    /// instead of the records)
     #[arg(long, value_name = "RECORD")]
     pub against: Option<PathBuf>,
     /// Gate such as `angular_error_deg.p99<=0.05`: exit code 1 where a row breaks it

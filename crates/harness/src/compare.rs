@@ -44,19 +44,23 @@ pub fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
             ));
         }
     }
-    match &baseline {
-        Some(baseline) if common.format != Format::Json => {
-            print::text(&against::changes(baseline, &values).write(common.format))?;
+    if let (Some(baseline), Format::Csv) = (&baseline, common.format) {
+        print::text(&against::changes(baseline, &values).write(Format::Csv))?;
+    } else {
+        print::records(&values, common.format)?;
+    }
+    match (&baseline, common.format) {
+        (Some(baseline), Format::Table | Format::Markdown) => {
+            print::text(&format!(
+                "\n{}",
+                against::changes(baseline, &values).write(common.format)
+            ))?;
         }
-        Some(baseline) => {
-            print::records(&values, common.format)?;
-            setup.progress.remark(
-                against::changes(baseline, &values)
-                    .write(Format::Table)
-                    .trim_end(),
-            );
+        (Some(baseline), Format::Json) => {
+            let changes = against::changes(baseline, &values).write(Format::Table);
+            setup.progress.remark(changes.trim_end());
         }
-        None => print::records(&values, common.format)?,
+        (Some(_), Format::Csv) | (None, _) => {}
     }
     Ok(outcome(
         &rows,

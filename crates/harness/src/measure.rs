@@ -20,17 +20,18 @@ pub struct Samples {
 }
 
 /// Times `techniques` in turn, A B A B …, until the budget is spent: after two warm-up frames
-/// each at least 5 and at most 200 samples. One result a technique, in order: its samples, or the
+/// each at least 5 and at most 200 samples, no more than 5 once `stop` says so. One result a technique, in order: its samples, or the
 /// first error, after which it is left out.
 pub fn interleaved(
     techniques: &mut [&mut Prepared<'_>],
     budget: Duration,
+    stop: impl Fn() -> bool,
 ) -> Vec<Result<Samples, ReflectError>> {
     let mut results: Vec<Result<Samples, ReflectError>> =
         techniques.iter().map(|_| Ok(Samples::default())).collect();
     let start = Instant::now();
     for round in 0..WARM_UP + MOST {
-        if round >= WARM_UP + FEWEST && start.elapsed() >= budget {
+        if round >= WARM_UP + FEWEST && (start.elapsed() >= budget || stop()) {
             break;
         }
         for (technique, result) in techniques.iter_mut().zip(&mut results) {

@@ -162,7 +162,7 @@ pub fn time(
         .filter_map(|row| row.as_mut().ok())
         .map(|row| &mut row.prepared)
         .collect();
-    let mut samples = measure::interleaved(&mut ready, budget).into_iter();
+    let mut samples = measure::interleaved(&mut ready, budget, interrupted).into_iter();
     places
         .into_iter()
         .map(|place| place.then(|| samples.next()).flatten())

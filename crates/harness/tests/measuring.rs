@@ -248,3 +248,50 @@ fn doctor_tests_the_clock() {
     );
     assert!(!facts["timestamps"].is_null() && !facts["limits"].is_null());
 }
+
+#[test]
+fn an_interrupted_run_keeps_what_was_finished() {
+    if !gpu_or_skip() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("record.json");
+    let scenes = ["sphere-square"; 30];
+    let child = std::process::Command::new(env!("CARGO_BIN_EXE_catoptric"))
+        .arg("compare")
+        .args(scenes)
+        .args([
+            "-t",
+            "linear",
+            "--time-budget",
+            "1",
+            "--format",
+            "json",
+            "-o",
+        ])
+        .arg(&path)
+        .args(SIZE)
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    while !path.exists() {
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    let interrupt = std::process::Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(interrupt.expect("kill").success());
+    let output = child.wait_with_output().expect("the program ends");
+    assert_eq!(code(&output), 1, "{}", stderr(&output));
+    assert!(
+        stderr(&output).contains("interrupted after"),
+        "{}",
+        stderr(&output)
+    );
+    let kept: Value =
+        serde_json::from_slice(&std::fs::read(&path).expect("a record")).expect("JSON");
+    let rows = kept.as_array().map_or(0, Vec::len);
+    assert!((1..scenes.len()).contains(&rows), "{rows}");
+    assert_eq!(json(&output).as_array().map(Vec::len), Some(rows));
+}

@@ -113,7 +113,7 @@ fn available(common: &Common) -> Vec<String> {
         .collect()
 }
 
-/// Makes the report's folder, empty of an earlier report's pictures.
+/// Makes the report's folder; where an earlier report is in it, without that one's pictures.
 fn make_folder(folder: &Path) -> anyhow::Result<()> {
     let unwritable = |error: std::io::Error| {
         bad_input(format!("cannot write into {}: {error}", folder.display()))
@@ -121,7 +121,10 @@ fn make_folder(folder: &Path) -> anyhow::Result<()> {
     std::fs::create_dir_all(folder).map_err(unwritable)?;
     tempfile::NamedTempFile::new_in(folder).map_err(unwritable)?;
     let pictures = folder.join(pictures::FOLDER);
-    if pictures.exists() {
+    let earlier = ["index.html", "record.json"]
+        .iter()
+        .all(|name| folder.join(name).is_file());
+    if earlier && pictures.exists() {
         std::fs::remove_dir_all(&pictures)
             .with_context(|| format!("cannot empty {}", pictures.display()))?;
     }

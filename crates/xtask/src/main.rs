@@ -1,2 +1,208 @@
-//! placeholder
-fn main(){}
+//! Chores that need some logic, as `cargo xtask <CHORE>`.
+//!
+//! * `report` sets the machine up and writes the comparison report.
+//! * `test` sets the machine up and runs every test.
+//! * `ci` does what a change must pass: formatting, lints, documentation, `test`.
+//!
+//! Each step is printed before it runs; the first that fails ends the chore with its exit code.
+//! Exit code 3 means that the machine lacks something and it could not be installed.
+
+mod setup;
+
+use std::env;
+use std::ffi::OsString;
+use std::process::{Command, ExitCode};
+
+use anyhow::{Context, Result};
+use clap::{Parser, Subcommand};
+
+use setup::Need;
+
+/// The exit code for a machine that lacks a driver or a compiler.
+const NOT_SET_UP: u8 = 3;
+
+#[derive(Parser)]
+#[command(
+    name = "cargo xtask",
+    bin_name = "cargo xtask",
+    about = "Chores of this workspace"
+)]
+struct Cli {
+    #[command(subcommand)]
+    chore: Chore,
+}
+
+#[derive(Subcommand)]
+enum Chore {
+    /// Write the comparison report (the quick suite, unless another is named)
+    Report {
+        /// Passed on to `catoptric report`
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        args: Vec<OsString>,
+    },
+    /// Run every test; a test that needs a graphics adapter fails without one
+    Test,
+    /// Check formatting, lints and documentation, then run every test
+    Ci,
+}
+
+fn main() -> ExitCode {
+    match run(Cli::parse().chore) {
+        Ok(code) => ExitCode::from(code),
+        Err(error) => {
+            eprintln!("xtask: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Runs a chore; the answer is its exit code.
+fn run(chore: Chore) -> Result<u8> {
+    let (needs, steps): (&[Need], Vec<Step>) = match chore {
+        Chore::Report { args } => (&[Need::Vulkan], vec![report(args)]),
+        Chore::Test => (&[Need::Vulkan, Need::CppCompiler], vec![test()]),
+        Chore::Ci => {
+            let mut steps = checks();
+            steps.push(test());
+            (&[Need::Vulkan, Need::CppCompiler], steps)
+        }
+    };
+    if let Err(message) = setup::provide(needs)? {
+        eprintln!("xtask: {message}");
+        return Ok(NOT_SET_UP);
+    }
+    for step in steps {
+        let code = step.run()?;
+        if code != 0 {
+            eprintln!("xtask: `{}` failed with exit code {code}", step.shown());
+            return Ok(code);
+        }
+    }
+    Ok(0)
+}
+
+/// The report, of the quick suite unless the arguments name one.
+fn report(args: Vec<OsString>) -> Step {
+    let mut step = Step::cargo("run --release -p catoptric -- report");
+    let names_suite = args
+        .iter()
+        .filter_map(|a| a.to_str())
+        .any(|a| a == "--suite" || a.starts_with("--suite="));
+    if !names_suite {
+        step.args.extend(["--suite", "quick"].map(OsString::from));
+    }
+    step.args.extend(args);
+    step
+}
+
+/// All tests, none of which may be skipped for want of an adapter.
+fn test() -> Step {
+    Step {
+        env: Some(("CATOPTRIC_REQUIRE_GPU", "1")),
+        ..Step::cargo("test --release --workspace")
+    }
+}
+
+/// What `ci` checks before it tests.
+fn checks() -> Vec<Step> {
+    vec![
+        Step::cargo("fmt --all --check"),
+        Step::cargo("clippy --release --workspace --all-targets -- -D warnings"),
+        Step {
+            env: Some(("RUSTDOCFLAGS", "-Dwarnings")),
+            ..Step::cargo("doc --release --workspace --no-deps")
+        },
+    ]
+}
+
+/// One call of cargo.
+struct Step {
+    env: Option<(&'static str, &'static str)>,
+    args: Vec<OsString>,
+}
+
+impl Step {
+    /// A call with these arguments, separated by blanks.
+    fn cargo(args: &str) -> Self {
+        Self {
+            env: None,
+            args: args.split_whitespace().map(OsString::from).collect(),
+        }
+    }
+
+    /// The command as one would type it.
+    fn shown(&self) -> String {
+        let mut words: Vec<String> = self
+            .env
+            .iter()
+            .map(|(key, value)| format!("{key}={value}"))
+            .collect();
+        words.push("cargo".into());
+        words.extend(self.args.iter().map(|a| a.to_string_lossy().into_owned()));
+        words.join(" ")
+    }
+
+    /// Prints and runs the command; the answer is its exit code (1 if a signal ended it).
+    fn run(&self) -> Result<u8> {
+        eprintln!("xtask: {}", self.shown());
+        let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+        let status = Command::new(cargo)
+            .args(&self.args)
+            .envs(self.env)
+            .status()
+            .with_context(|| format!("cannot run `{}`", self.shown()))?;
+        Ok(status
+            .code()
+            .map_or(1, |code| u8::try_from(code).unwrap_or(1)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(words: &str) -> Chore {
+        Cli::try_parse_from(words.split_whitespace())
+            .unwrap_or_else(|e| panic!("{e}"))
+            .chore
+    }
+
+    fn shown_report(words: &str) -> String {
+        match parse(words) {
+            Chore::Report { args } => report(args).shown(),
+            _ => panic!("not a report"),
+        }
+    }
+
+    #[test]
+    fn a_report_is_quick_and_takes_arguments() {
+        assert_eq!(
+            shown_report("xtask report"),
+            "cargo run --release -p catoptric -- report --suite quick"
+        );
+        assert_eq!(
+            shown_report("xtask report --models dir -o out"),
+            "cargo run --release -p catoptric -- report --suite quick --models dir -o out"
+        );
+    }
+
+    #[test]
+    fn a_named_suite_replaces_the_quick_one() {
+        assert_eq!(
+            shown_report("xtask report --suite full"),
+            "cargo run --release -p catoptric -- report --suite full"
+        );
+        assert_eq!(
+            shown_report("xtask report --suite=full"),
+            "cargo run --release -p catoptric -- report --suite=full"
+        );
+    }
+
+    #[test]
+    fn tests_require_an_adapter() {
+        assert_eq!(
+            test().shown(),
+            "CATOPTRIC_REQUIRE_GPU=1 cargo test --release --workspace"
+        );
+    }
+}

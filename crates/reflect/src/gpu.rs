@@ -1,0 +1,168 @@
+//! The device: choosing an adapter on purpose, and reading results back.
+
+use thiserror::Error;
+
+/// A wgpu device and what is known about its adapter.
+#[derive(Debug)]
+pub struct Gpu {
+    pub(crate) device: wgpu::Device,
+    pub(crate) queue: wgpu::Queue,
+    info: AdapterInfo,
+}
+
+/// What an adapter is called and can do.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AdapterInfo {
+    /// As the driver names it.
+    pub name: String,
+    /// Driver and version.
+    pub driver: String,
+    /// Graphics API.
+    pub backend: String,
+    /// True for renderers that run on the CPU.
+    pub software: bool,
+    /// GPU time of passes can be measured.
+    pub timestamps: bool,
+    /// Widest or highest image.
+    pub max_image: u32,
+    /// Largest buffer a shader can see, in bytes.
+    pub max_storage_binding: u64,
+}
+
+/// Which kind of adapter to take where no name is given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Prefer {
+    /// The fastest: measuring.
+    Hardware,
+    /// The most reproducible: tests.
+    Software,
+}
+
+/// Why there is no device.
+#[derive(Debug, Error)]
+pub enum GpuError {
+    /// No adapter, or none of the name asked for.
+    #[error("no usable graphics adapter{wanted}; {found}. On Debian and Ubuntu the packages mesa-vulkan-drivers and libvulkan1 bring a software Vulkan driver")]
+    NoAdapter {
+        /// ` named "…"`, or empty.
+        wanted: String,
+        /// What there is instead.
+        found: String,
+    },
+    /// The adapter refuses a device.
+    #[error("the adapter {adapter} gives no device: {source}")]
+    NoDevice {
+        /// Its name.
+        adapter: String,
+        /// Its reason.
+        source: wgpu::RequestDeviceError,
+    },
+}
+
+fn describe(adapter: &wgpu::Adapter) -> AdapterInfo {
+    let info = adapter.get_info();
+    let limits = adapter.limits();
+    AdapterInfo {
+        name: info.name,
+        driver: format!("{} {}", info.driver, info.driver_info).trim().to_owned(),
+        backend: info.backend.to_string(),
+        software: info.device_type == wgpu::DeviceType::Cpu,
+        timestamps: adapter.features().contains(wgpu::Features::TIMESTAMP_QUERY),
+        max_image: limits.max_texture_dimension_2d,
+        max_storage_binding: limits.max_storage_buffer_binding_size,
+    }
+}
+
+fn enumerate() -> Vec<wgpu::Adapter> {
+    let instance = wgpu::Instance::default();
+    pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()))
+}
+
+/// All adapters of this machine, in the order the drivers give them.
+pub fn adapters() -> Vec<AdapterInfo> {
+    enumerate().iter().map(describe).collect()
+}
+
+impl Gpu {
+    /// Opens the adapter whose name contains `name` (any case), else the preferred kind.
+    pub fn new(name: Option<&str>, prefer: Prefer) -> Result<Self, GpuError> {
+        let mut candidates: Vec<_> = enumerate().into_iter().map(|adapter| (describe(&adapter), adapter)).collect();
+        let names: Vec<_> = candidates.iter().map(|(info, _)| format!("\"{}\"", info.name)).collect();
+        if let Some(name) = name {
+            let wanted = name.to_lowercase();
+            candidates.retain(|(info, _)| info.name.to_lowercase().contains(&wanted));
+        }
+        candidates.sort_by_key(|(info, _)| info.software == (prefer == Prefer::Hardware));
+        let Some((info, adapter)) = candidates.into_iter().next() else {
+            return Err(GpuError::NoAdapter {
+                wanted: name.map(|name| format!(" named \"{name}\"")).unwrap_or_default(),
+                found: if names.is_empty() { "there is none".to_owned() } else { format!("there are {}", names.join(", ")) },
+            });
+        };
+        let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
+            label: Some("catoptric"),
+            required_features: adapter.features() & wgpu::Features::TIMESTAMP_QUERY,
+            required_limits: wgpu::Limits::default().using_resolution(adapter.limits()),
+            ..Default::default()
+        }))
+        .map_err(|source| GpuError::NoDevice { adapter: info.name.clone(), source })?;
+        Ok(Self { device, queue, info })
+    }
+
+    /// What was opened.
+    pub fn info(&self) -> &AdapterInfo {
+        &self.info
+    }
+
+    /// Waits until everything submitted has run.
+    pub(crate) fn wait(&self) {
+        self.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device is not lost");
+    }
+
+    /// Bytes of a buffer that was created with `COPY_SRC`.
+    pub(crate) fn read_buffer(&self, buffer: &wgpu::Buffer) -> Vec<u8> {
+        let staging = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("readback"),
+            size: buffer.size(),
+            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+            mapped_at_creation: false,
+        });
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, buffer.size());
+        self.queue.submit([encoder.finish()]);
+        self.mapped(&staging)
+    }
+
+    /// Texels of an `Rgba32Float` texture created with `COPY_SRC`, rows from the top.
+    pub(crate) fn read_texture(&self, texture: &wgpu::Texture) -> Vec<[f32; 4]> {
+        let row = (texture.width() * 16).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let staging = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("readback"),
+            size: u64::from(row) * u64::from(texture.height()),
+            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+            mapped_at_creation: false,
+        });
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        encoder.copy_texture_to_buffer(
+            texture.as_image_copy(),
+            wgpu::TexelCopyBufferInfo {
+                buffer: &staging,
+                layout: wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None },
+            },
+            texture.size(),
+        );
+        self.queue.submit([encoder.finish()]);
+        let bytes = self.mapped(&staging);
+        bytes
+            .chunks_exact(row as usize)
+            .flat_map(|line| line[..texture.width() as usize * 16].chunks_exact(16))
+            .map(bytemuck::pod_read_unaligned)
+            .collect()
+    }
+
+    fn mapped(&self, staging: &wgpu::Buffer) -> Vec<u8> {
+        staging.map_async(wgpu::MapMode::Read, .., |result| result.expect("a staging buffer can be mapped"));
+        self.wait();
+        staging.get_mapped_range(..).expect("the buffer was just mapped").to_vec()
+    }
+}

@@ -1,0 +1,104 @@
+//! GPU time of passes, measured from END stamp to END stamp.
+//!
+//! Stamps at a pass's beginning are not trusted (a software driver gets them wrong once a render
+//! pass has run). The first pass lasts from a lone stamp that was submitted and waited for.
+
+use crate::gpu::Gpu;
+
+/// Times of one frame.
+#[derive(Clone, Debug)]
+pub struct FrameTime {
+    /// Sum of the passes, milliseconds; `None` where the adapter cannot tell.
+    pub gpu_ms: Option<f64>,
+    /// Name and milliseconds of each pass, in order; `None` with a reason.
+    pub passes: Option<Vec<(String, f64)>>,
+    /// Why `passes` is `None`.
+    pub passes_reason: Option<String>,
+    /// From before the submission until the queue is empty, milliseconds.
+    pub wall_ms: f64,
+}
+
+/// Share of the wall time by which the passes may miss it.
+const PASSES_MISS_WALL: f64 = 0.1;
+
+/// Hands out END stamps, at most [`Timer::CAPACITY`] passes a frame.
+#[derive(Debug)]
+pub(crate) struct Timer {
+    stamps: Option<wgpu::QuerySet>,
+    names: Vec<String>,
+}
+
+impl Timer {
+    const CAPACITY: u32 = 64;
+
+    pub(crate) fn new(gpu: &Gpu) -> Self {
+        let stamps = gpu.info().timestamps.then(|| {
+            gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
+                label: Some("end stamps"),
+                ty: wgpu::QueryType::Timestamp,
+                count: Self::CAPACITY,
+            })
+        });
+        Self { stamps, names: Vec::new() }
+    }
+
+    /// The query set and the index of the next pass's END stamp.
+    pub(crate) fn next(&mut self, name: &str) -> Option<(&wgpu::QuerySet, u32)> {
+        self.names.push(name.to_owned());
+        let index = self.names.len() as u32;
+        self.stamps.as_ref().filter(|_| index < Self::CAPACITY).map(|stamps| (stamps, index))
+    }
+
+    /// Times a frame: `record` records its passes, each with a stamp from [`Timer::next`].
+    pub(crate) fn time(gpu: &Gpu, timer: &mut Self, record: impl FnOnce(&mut wgpu::CommandEncoder, &mut Self)) -> FrameTime {
+        timer.names.clear();
+        let mut lone = gpu.device.create_command_encoder(&Default::default());
+        if let Some(stamps) = &timer.stamps {
+            drop(lone.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: Some("lone stamp"),
+                timestamp_writes: Some(wgpu::ComputePassTimestampWrites {
+                    query_set: stamps,
+                    beginning_of_pass_write_index: None,
+                    end_of_pass_write_index: Some(0),
+                }),
+            }));
+        }
+        gpu.queue.submit([lone.finish()]);
+        gpu.wait();
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        record(&mut encoder, timer);
+        let commands = encoder.finish();
+        let begin = std::time::Instant::now();
+        gpu.queue.submit([commands]);
+        gpu.wait();
+        let wall_ms = begin.elapsed().as_secs_f64() * 1e3;
+        let without = |reason: String| FrameTime { gpu_ms: None, passes: None, passes_reason: Some(reason), wall_ms };
+        let Some(stamps) = &timer.stamps else {
+            return without("the adapter has no timestamps".to_owned());
+        };
+        let count = timer.names.len() as u32 + 1;
+        if count > Self::CAPACITY {
+            return without(format!("{count} passes are more than the {} that can be timed", Self::CAPACITY));
+        }
+        let resolved = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("stamps"),
+            size: u64::from(count) * 8,
+            usage: wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC,
+            mapped_at_creation: false,
+        });
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        encoder.resolve_query_set(stamps, 0..count, &resolved, 0);
+        gpu.queue.submit([encoder.finish()]);
+        let ticks: Vec<u64> = gpu.read_buffer(&resolved).chunks_exact(8).map(bytemuck::pod_read_unaligned).collect();
+        if ticks.contains(&0) || ticks.is_sorted_by(|a, b| a <= b) == false {
+            return without("a stamp is missing or earlier than the one before".to_owned());
+        }
+        let period = f64::from(gpu.queue.get_timestamp_period()) * 1e-6;
+        let passes: Vec<_> = timer.names.iter().cloned().zip(ticks.windows(2).map(|pair| (pair[1] - pair[0]) as f64 * period)).collect();
+        let sum: f64 = passes.iter().map(|(_, ms)| ms).sum();
+        if (sum - wall_ms).abs() > PASSES_MISS_WALL * wall_ms {
+            return FrameTime { gpu_ms: Some(sum), ..without(format!("the passes add up to {sum:.2} ms, the wall clock says {wall_ms:.2}")) };
+        }
+        FrameTime { gpu_ms: Some(sum), passes: Some(passes), passes_reason: None, wall_ms }
+    }
+}

@@ -13,8 +13,8 @@ pub fn run(common: &Common) -> anyhow::Result<Outcome> {
     let test = gpu.timestamp_self_test();
     let facts = json!({
         "adapter": { "name": info.name, "driver": info.driver, "backend": info.backend, "software": info.software },
-        "limits": info.limits,
-        "features": info.features,
+        "limits": { "max_image": info.max_image, "max_storage_binding": info.max_storage_binding },
+        "features": if info.timestamps { vec!["timestamp-query"] } else { Vec::new() },
         "timestamps": test,
     });
     print::facts(&facts, common.format)?;

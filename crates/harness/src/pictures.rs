@@ -54,11 +54,7 @@ pub fn render(name: &str, technique: &str, common: &Common) -> anyhow::Result<Ou
     let spec = setup::parse(technique)?;
     let scene = open(name, common)?;
     let gpu = setup::open_gpu(common)?;
-    check_size(
-        pipeline::size(&scene),
-        gpu.info().max_texture_size,
-        "this adapter",
-    )?;
+    check_size(pipeline::size(&scene), gpu.info().max_image, "this adapter")?;
     match pipeline::render(&gpu, &spec, &scene) {
         Ok(rendered) => write(&rendered.output.frame, &path, common),
         Err((crate::record::Status::NotApplicable, reason)) => Err(bad_input(format!(

@@ -52,7 +52,7 @@ impl Setup {
             .map(|name| pipeline::load(name, &options))
             .collect::<anyhow::Result<Vec<_>>>()?;
         let gpu = open_gpu(common)?;
-        let limit = gpu.info().max_texture_size;
+        let limit = gpu.info().max_image;
         for scene in scenes.iter().filter_map(|(_, scene)| scene.as_ref().ok()) {
             pipeline::check_size(pipeline::size(scene), limit, "this adapter")?;
         }

@@ -42,7 +42,9 @@ pub enum Prefer {
 #[derive(Debug, Error)]
 pub enum GpuError {
     /// No adapter, or none of the name asked for.
-    #[error("no usable graphics adapter{wanted}; {found}. On Debian and Ubuntu the packages mesa-vulkan-drivers and libvulkan1 bring a software Vulkan driver")]
+    #[error(
+        "no usable graphics adapter{wanted}; {found}. On Debian and Ubuntu the packages mesa-vulkan-drivers and libvulkan1 bring a software Vulkan driver"
+    )]
     NoAdapter {
         /// ` named "…"`, or empty.
         wanted: String,
@@ -64,7 +66,9 @@ fn describe(adapter: &wgpu::Adapter) -> AdapterInfo {
     let limits = adapter.limits();
     AdapterInfo {
         name: info.name,
-        driver: format!("{} {}", info.driver, info.driver_info).trim().to_owned(),
+        driver: format!("{} {}", info.driver, info.driver_info)
+            .trim()
+            .to_owned(),
         backend: info.backend.to_string(),
         software: info.device_type == wgpu::DeviceType::Cpu,
         timestamps: adapter.features().contains(wgpu::Features::TIMESTAMP_QUERY),
@@ -86,8 +90,14 @@ pub fn adapters() -> Vec<AdapterInfo> {
 impl Gpu {
     /// Opens the adapter whose name contains `name` (any case), else the preferred kind.
     pub fn new(name: Option<&str>, prefer: Prefer) -> Result<Self, GpuError> {
-        let mut candidates: Vec<_> = enumerate().into_iter().map(|adapter| (describe(&adapter), adapter)).collect();
-        let names: Vec<_> = candidates.iter().map(|(info, _)| format!("\"{}\"", info.name)).collect();
+        let mut candidates: Vec<_> = enumerate()
+            .into_iter()
+            .map(|adapter| (describe(&adapter), adapter))
+            .collect();
+        let names: Vec<_> = candidates
+            .iter()
+            .map(|(info, _)| format!("\"{}\"", info.name))
+            .collect();
         if let Some(name) = name {
             let wanted = name.to_lowercase();
             candidates.retain(|(info, _)| info.name.to_lowercase().contains(&wanted));
@@ -95,8 +105,14 @@ impl Gpu {
         candidates.sort_by_key(|(info, _)| info.software == (prefer == Prefer::Hardware));
         let Some((info, adapter)) = candidates.into_iter().next() else {
             return Err(GpuError::NoAdapter {
-                wanted: name.map(|name| format!(" named \"{name}\"")).unwrap_or_default(),
-                found: if names.is_empty() { "there is none".to_owned() } else { format!("there are {}", names.join(", ")) },
+                wanted: name
+                    .map(|name| format!(" named \"{name}\""))
+                    .unwrap_or_default(),
+                found: if names.is_empty() {
+                    "there is none".to_owned()
+                } else {
+                    format!("there are {}", names.join(", "))
+                },
             });
         };
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
@@ -105,8 +121,15 @@ impl Gpu {
             required_limits: wgpu::Limits::default().using_resolution(adapter.limits()),
             ..Default::default()
         }))
-        .map_err(|source| GpuError::NoDevice { adapter: info.name.clone(), source })?;
-        Ok(Self { device, queue, info })
+        .map_err(|source| GpuError::NoDevice {
+            adapter: info.name.clone(),
+            source,
+        })?;
+        Ok(Self {
+            device,
+            queue,
+            info,
+        })
     }
 
     /// What was opened.
@@ -114,9 +137,16 @@ impl Gpu {
         &self.info
     }
 
+    /// Puts a known compute load after a render pass and checks that its time is seen where it ran.
+    pub fn timestamp_self_test(&self) -> crate::timing::SelfTest {
+        crate::timing::self_test(self)
+    }
+
     /// Waits until everything submitted has run.
     pub(crate) fn wait(&self) {
-        self.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device is not lost");
+        self.device
+            .poll(wgpu::PollType::wait_indefinitely())
+            .expect("the device is not lost");
     }
 
     /// Bytes of a buffer that was created with `COPY_SRC`.
@@ -147,7 +177,11 @@ impl Gpu {
             texture.as_image_copy(),
             wgpu::TexelCopyBufferInfo {
                 buffer: &staging,
-                layout: wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None },
+                layout: wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(row),
+                    rows_per_image: None,
+                },
             },
             texture.size(),
         );
@@ -161,8 +195,13 @@ impl Gpu {
     }
 
     fn mapped(&self, staging: &wgpu::Buffer) -> Vec<u8> {
-        staging.map_async(wgpu::MapMode::Read, .., |result| result.expect("a staging buffer can be mapped"));
+        staging.map_async(wgpu::MapMode::Read, .., |result| {
+            result.expect("a staging buffer can be mapped")
+        });
         self.wait();
-        staging.get_mapped_range(..).expect("the buffer was just mapped").to_vec()
+        staging
+            .get_mapped_range(..)
+            .expect("the buffer was just mapped")
+            .to_vec()
     }
 }

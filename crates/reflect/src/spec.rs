@@ -68,12 +68,18 @@ fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> String {
 }
 
 fn technique(name: &str) -> Result<&'static TechniqueInfo, SpecError> {
-    let found = TECHNIQUES.iter().find(|info| info.name == name).ok_or_else(|| SpecError::Technique {
-        name: name.to_owned(),
-        hint: nearest(name, TECHNIQUES.iter().map(|info| info.name)),
-    })?;
+    let found = TECHNIQUES
+        .iter()
+        .find(|info| info.name == name)
+        .ok_or_else(|| SpecError::Technique {
+            name: name.to_owned(),
+            hint: nearest(name, TECHNIQUES.iter().map(|info| info.name)),
+        })?;
     match found.reason {
-        Some(reason) => Err(SpecError::Unavailable { name: found.name, reason }),
+        Some(reason) => Err(SpecError::Unavailable {
+            name: found.name,
+            reason,
+        }),
         None => Ok(found),
     }
 }
@@ -92,26 +98,51 @@ pub fn parse(text: &str) -> Result<Spec, SpecError> {
         technique(&format!("+{name}"))?;
     }
     let (name, arguments) = match search.trim().split_once('(') {
-        Some((name, rest)) => (name, rest.strip_suffix(')').ok_or_else(|| SpecError::Syntax(text.to_owned()))?),
+        Some((name, rest)) => (
+            name,
+            rest.strip_suffix(')')
+                .ok_or_else(|| SpecError::Syntax(text.to_owned()))?,
+        ),
         None => (search.trim(), ""),
     };
     let info = technique(name)?;
-    let mut options: Vec<_> = info.options.iter().map(|option| (option.name, option.values[0])).collect();
-    for argument in arguments.split(',').map(str::trim).filter(|argument| !argument.is_empty()) {
-        let (key, value) = argument.split_once('=').ok_or_else(|| SpecError::Syntax(argument.to_owned()))?;
-        let index = info.options.iter().position(|option| option.name == key.trim()).ok_or_else(|| SpecError::Option {
-            technique: info.name,
-            option: key.to_owned(),
-            hint: nearest(key, info.options.iter().map(|option| option.name)),
-        })?;
+    let mut options: Vec<_> = info
+        .options
+        .iter()
+        .map(|option| (option.name, option.values[0]))
+        .collect();
+    for argument in arguments
+        .split(',')
+        .map(str::trim)
+        .filter(|argument| !argument.is_empty())
+    {
+        let (key, value) = argument
+            .split_once('=')
+            .ok_or_else(|| SpecError::Syntax(argument.to_owned()))?;
+        let index = info
+            .options
+            .iter()
+            .position(|option| option.name == key.trim())
+            .ok_or_else(|| SpecError::Option {
+                technique: info.name,
+                option: key.to_owned(),
+                hint: nearest(key, info.options.iter().map(|option| option.name)),
+            })?;
         let option = &info.options[index];
-        options[index].1 = option.values.iter().find(|known| **known == value.trim()).ok_or_else(|| SpecError::Value {
-            option: option.name,
-            value: value.to_owned(),
-            allowed: option.values.join(", "),
-        })?;
+        options[index].1 = option
+            .values
+            .iter()
+            .find(|known| **known == value.trim())
+            .ok_or_else(|| SpecError::Value {
+                option: option.name,
+                value: value.to_owned(),
+                allowed: option.values.join(", "),
+            })?;
     }
-    Ok(Spec { name: info.name, options })
+    Ok(Spec {
+        name: info.name,
+        options,
+    })
 }
 
 impl Spec {
@@ -126,14 +157,19 @@ impl Spec {
     /// If the technique has no such option: a bug in the caller.
     pub fn option(&self, name: &str) -> &'static str {
         let found = self.options.iter().find(|(key, _)| *key == name);
-        found.unwrap_or_else(|| panic!("{} has no option {name}", self.name)).1
+        found
+            .unwrap_or_else(|| panic!("{} has no option {name}", self.name))
+            .1
     }
 }
 
 impl fmt::Display for Spec {
     /// The name with the options that differ from their defaults.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let defaults = TECHNIQUES.iter().find(|info| info.name == self.name).map_or(&[][..], |info| info.options);
+        let defaults = TECHNIQUES
+            .iter()
+            .find(|info| info.name == self.name)
+            .map_or(&[][..], |info| info.options);
         let changed: Vec<_> = self
             .options
             .iter()
@@ -141,7 +177,11 @@ impl fmt::Display for Spec {
             .filter(|((_, value), option)| *value != option.values[0])
             .map(|((name, value), _)| format!("{name}={value}"))
             .collect();
-        if changed.is_empty() { write!(f, "{}", self.name) } else { write!(f, "{}({})", self.name, changed.join(",")) }
+        if changed.is_empty() {
+            write!(f, "{}", self.name)
+        } else {
+            write!(f, "{}({})", self.name, changed.join(","))
+        }
     }
 }
 
@@ -152,13 +192,22 @@ mod tests {
     #[test]
     fn defaults_are_left_out_and_values_kept() {
         assert_eq!(parse("linear").unwrap().to_string(), "linear");
-        assert_eq!(parse("linear(start=center, residual=cross)").unwrap().to_string(), "linear(residual=cross)");
+        assert_eq!(
+            parse("linear(start=center, residual=cross)")
+                .unwrap()
+                .to_string(),
+            "linear(residual=cross)"
+        );
     }
 
     #[test]
     fn mistakes_name_the_nearest() {
         let message = |text: &str| parse(text).unwrap_err().to_string();
-        assert!(message("liner").contains("`linear`"), "{}", message("liner"));
+        assert!(
+            message("liner").contains("`linear`"),
+            "{}",
+            message("liner")
+        );
         assert!(message("linear(residul=cross)").contains("`residual`"));
         assert!(message("linear(residual=dut)").contains("dot, cross"));
         assert!(message("linear+full").contains("not available"));

@@ -39,18 +39,36 @@ impl Timer {
                 count: Self::CAPACITY,
             })
         });
-        Self { stamps, names: Vec::new() }
+        Self {
+            stamps,
+            names: Vec::new(),
+        }
+    }
+
+    /// A timer that stamps nothing.
+    pub(crate) fn none() -> Self {
+        Self {
+            stamps: None,
+            names: Vec::new(),
+        }
     }
 
     /// The query set and the index of the next pass's END stamp.
     pub(crate) fn next(&mut self, name: &str) -> Option<(&wgpu::QuerySet, u32)> {
         self.names.push(name.to_owned());
         let index = self.names.len() as u32;
-        self.stamps.as_ref().filter(|_| index < Self::CAPACITY).map(|stamps| (stamps, index))
+        self.stamps
+            .as_ref()
+            .filter(|_| index < Self::CAPACITY)
+            .map(|stamps| (stamps, index))
     }
 
     /// Times a frame: `record` records its passes, each with a stamp from [`Timer::next`].
-    pub(crate) fn time(gpu: &Gpu, timer: &mut Self, record: impl FnOnce(&mut wgpu::CommandEncoder, &mut Self)) -> FrameTime {
+    pub(crate) fn time(
+        gpu: &Gpu,
+        timer: &mut Self,
+        record: impl FnOnce(&mut wgpu::CommandEncoder, &mut Self),
+    ) -> FrameTime {
         timer.names.clear();
         let mut lone = gpu.device.create_command_encoder(&Default::default());
         if let Some(stamps) = &timer.stamps {
@@ -72,13 +90,21 @@ impl Timer {
         gpu.queue.submit([commands]);
         gpu.wait();
         let wall_ms = begin.elapsed().as_secs_f64() * 1e3;
-        let without = |reason: String| FrameTime { gpu_ms: None, passes: None, passes_reason: Some(reason), wall_ms };
+        let without = |reason: String| FrameTime {
+            gpu_ms: None,
+            passes: None,
+            passes_reason: Some(reason),
+            wall_ms,
+        };
         let Some(stamps) = &timer.stamps else {
             return without("the adapter has no timestamps".to_owned());
         };
         let count = timer.names.len() as u32 + 1;
         if count > Self::CAPACITY {
-            return without(format!("{count} passes are more than the {} that can be timed", Self::CAPACITY));
+            return without(format!(
+                "{count} passes are more than the {} that can be timed",
+                Self::CAPACITY
+            ));
         }
         let resolved = gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("stamps"),
@@ -89,16 +115,164 @@ impl Timer {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         encoder.resolve_query_set(stamps, 0..count, &resolved, 0);
         gpu.queue.submit([encoder.finish()]);
-        let ticks: Vec<u64> = gpu.read_buffer(&resolved).chunks_exact(8).map(bytemuck::pod_read_unaligned).collect();
-        if ticks.contains(&0) || ticks.is_sorted_by(|a, b| a <= b) == false {
+        let ticks: Vec<u64> = gpu
+            .read_buffer(&resolved)
+            .chunks_exact(8)
+            .map(bytemuck::pod_read_unaligned)
+            .collect();
+        if ticks.contains(&0) || !ticks.is_sorted() {
             return without("a stamp is missing or earlier than the one before".to_owned());
         }
         let period = f64::from(gpu.queue.get_timestamp_period()) * 1e-6;
-        let passes: Vec<_> = timer.names.iter().cloned().zip(ticks.windows(2).map(|pair| (pair[1] - pair[0]) as f64 * period)).collect();
+        let passes: Vec<_> = timer
+            .names
+            .iter()
+            .cloned()
+            .zip(
+                ticks
+                    .windows(2)
+                    .map(|pair| (pair[1] - pair[0]) as f64 * period),
+            )
+            .collect();
         let sum: f64 = passes.iter().map(|(_, ms)| ms).sum();
         if (sum - wall_ms).abs() > PASSES_MISS_WALL * wall_ms {
-            return FrameTime { gpu_ms: Some(sum), ..without(format!("the passes add up to {sum:.2} ms, the wall clock says {wall_ms:.2}")) };
+            return FrameTime {
+                gpu_ms: Some(sum),
+                ..without(format!(
+                    "the passes add up to {sum:.2} ms, the wall clock says {wall_ms:.2}"
+                ))
+            };
         }
-        FrameTime { gpu_ms: Some(sum), passes: Some(passes), passes_reason: None, wall_ms }
+        FrameTime {
+            gpu_ms: Some(sum),
+            passes: Some(passes),
+            passes_reason: None,
+            wall_ms,
+        }
+    }
+}
+
+/// What the timestamp self-test saw.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct SelfTest {
+    /// A known load after another pass was seen where it ran, or the adapter has no timestamps.
+    pub passed: bool,
+    /// In words.
+    pub message: String,
+}
+
+/// Share of the frame that the known load must account for.
+const LOAD_SHARE: f64 = 0.5;
+
+/// A heavy compute pass between two empty ones, after a render pass: its time must be seen as its own.
+pub(crate) fn self_test(gpu: &Gpu) -> SelfTest {
+    if !gpu.info().timestamps {
+        return SelfTest {
+            passed: true,
+            message: "the adapter has no timestamps; wall time only".to_owned(),
+        };
+    }
+    const LOAD: &str = "@group(0) @binding(0) var<storage, read_write> sink: array<f32>;
+@compute @workgroup_size(64) fn load(@builtin(global_invocation_id) id: vec3u) {
+    var x = f32(id.x) * 1e-3;
+    for (var i = 0; i < 20000; i++) { x = fract(x * 1.7 + 0.3); }
+    sink[id.x] = x;
+}";
+    let module = gpu
+        .device
+        .create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("load"),
+            source: wgpu::ShaderSource::Wgsl(LOAD.into()),
+        });
+    let pipeline = gpu
+        .device
+        .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some("load"),
+            layout: None,
+            module: &module,
+            entry_point: Some("load"),
+            compilation_options: Default::default(),
+            cache: None,
+        });
+    let sink = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("sink"),
+        size: 4096 * 4,
+        usage: wgpu::BufferUsages::STORAGE,
+        mapped_at_creation: false,
+    });
+    let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout: &pipeline.get_bind_group_layout(0),
+        entries: &[wgpu::BindGroupEntry {
+            binding: 0,
+            resource: sink.as_entire_binding(),
+        }],
+    });
+    let target = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("target"),
+        size: wgpu::Extent3d {
+            width: 64,
+            height: 64,
+            depth_or_array_layers: 1,
+        },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Rgba8Unorm,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
+        view_formats: &[],
+    });
+    let view = target.create_view(&Default::default());
+    let mut timer = Timer::new(gpu);
+    let time = Timer::time(gpu, &mut timer, |encoder, timer| {
+        drop(encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("render"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: &view,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
+                    store: wgpu::StoreOp::Store,
+                },
+            })],
+            timestamp_writes: timer.next("render").map(|(query_set, index)| {
+                wgpu::RenderPassTimestampWrites {
+                    query_set,
+                    beginning_of_pass_write_index: None,
+                    end_of_pass_write_index: Some(index),
+                }
+            }),
+            ..Default::default()
+        }));
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some("load"),
+            timestamp_writes: timer.next("load").map(|(query_set, index)| {
+                wgpu::ComputePassTimestampWrites {
+                    query_set,
+                    beginning_of_pass_write_index: None,
+                    end_of_pass_write_index: Some(index),
+                }
+            }),
+        });
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        pass.dispatch_workgroups(64, 1, 1);
+    });
+    match &time.passes {
+        None => SelfTest {
+            passed: false,
+            message: time.passes_reason.unwrap_or_default(),
+        },
+        Some(passes) => {
+            let load = passes[1].1;
+            SelfTest {
+                passed: load >= LOAD_SHARE * time.wall_ms,
+                message: format!(
+                    "a compute load after a render pass: {load:.2} ms of {:.2} ms wall",
+                    time.wall_ms
+                ),
+            }
+        }
     }
 }

@@ -49,20 +49,39 @@ const SCENES: [(&str, &str); 14] = scenes![
 
 /// Scenes made from a template: one grid of about so many vertices.
 const GRIDS: [(&str, &str); 2] = [
-    ("sphere-grid-", include_str!("../../../scenes/template-sphere-grid.toml")),
-    ("sphere-grid-full-", include_str!("../../../scenes/template-sphere-grid-full.toml")),
+    (
+        "sphere-grid-",
+        include_str!("../../../scenes/template-sphere-grid.toml"),
+    ),
+    (
+        "sphere-grid-full-",
+        include_str!("../../../scenes/template-sphere-grid-full.toml"),
+    ),
 ];
 
 /// Sizes of the grids: the name's ending and the cells along each side.
-const GRID_SIZES: [(&str, u32); 7] =
-    [("100", 9), ("300", 16), ("1k", 31), ("3k", 54), ("10k", 99), ("30k", 172), ("100k", 315)];
+const GRID_SIZES: [(&str, u32); 7] = [
+    ("100", 9),
+    ("300", 16),
+    ("1k", 31),
+    ("3k", 54),
+    ("10k", 99),
+    ("30k", 172),
+    ("100k", 315),
+];
 
 /// Names of all built-in scenes.
 pub fn names() -> Vec<String> {
-    let grids = GRIDS
+    let grids = GRIDS.iter().flat_map(|(family, _)| {
+        GRID_SIZES
+            .iter()
+            .map(move |(size, _)| format!("{family}{size}"))
+    });
+    SCENES
         .iter()
-        .flat_map(|(family, _)| GRID_SIZES.iter().map(move |(size, _)| format!("{family}{size}")));
-    SCENES.iter().map(|(name, _)| (*name).to_owned()).chain(grids).collect()
+        .map(|(name, _)| (*name).to_owned())
+        .chain(grids)
+        .collect()
 }
 
 /// The scene file of a built-in scene.
@@ -79,7 +98,10 @@ pub fn text(name: &str) -> Option<String> {
 
 /// Every built-in scene, loaded to be counted.
 pub fn list(options: &LoadOptions) -> Vec<SceneInfo> {
-    names().into_iter().map(|name| info(name, options)).collect()
+    names()
+        .into_iter()
+        .map(|name| info(name, options))
+        .collect()
 }
 
 fn info(name: String, options: &LoadOptions) -> SceneInfo {

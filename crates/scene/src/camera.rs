@@ -43,7 +43,14 @@ impl Camera {
                 DVec2::new(y * aspect, y)
             }
         };
-        View { eye: self.eye, right, up, forward, tan, size }
+        View {
+            eye: self.eye,
+            right,
+            up,
+            forward,
+            tan,
+            size,
+        }
     }
 }
 
@@ -90,6 +97,9 @@ impl View {
 
     /// True where image coordinates lie inside the image.
     pub fn contains(&self, at: DVec2) -> bool {
-        at.x >= 0.0 && at.y >= 0.0 && at.x < f64::from(self.size[0]) && at.y < f64::from(self.size[1])
+        at.x >= 0.0
+            && at.y >= 0.0
+            && at.x < f64::from(self.size[0])
+            && at.y < f64::from(self.size[1])
     }
 }

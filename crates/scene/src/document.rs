@@ -27,8 +27,15 @@ pub(crate) struct Source {
 
 impl Source {
     pub(crate) fn new(file: &str, text: &str) -> Self {
-        let starts = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(i, _)| i + 1);
-        Self { file: file.to_owned(), line_starts: std::iter::once(0).chain(starts).collect() }
+        let starts = text
+            .bytes()
+            .enumerate()
+            .filter(|(_, byte)| *byte == b'\n')
+            .map(|(i, _)| i + 1);
+        Self {
+            file: file.to_owned(),
+            line_starts: std::iter::once(0).chain(starts).collect(),
+        }
     }
 
     pub(crate) fn file(&self) -> &str {
@@ -49,7 +56,10 @@ impl Source {
 }
 
 /// Parses a whole TOML text.
-pub(crate) fn parse<'d>(source: &Source, text: &'d str) -> Result<Spanned<DeTable<'d>>, SceneError> {
+pub(crate) fn parse<'d>(
+    source: &Source,
+    text: &'d str,
+) -> Result<Spanned<DeTable<'d>>, SceneError> {
     DeTable::parse(text).map_err(|error| {
         let offset = error.span().map_or(0, |span| span.start);
         source.error(offset, error.message().replace('\n', ", "))
@@ -73,7 +83,13 @@ impl<'d> Table<'d> {
     }
 
     fn new(source: &'d Source, owner: String, start: usize, values: &'d DeTable<'d>) -> Self {
-        Self { source, owner, start, values, asked: RefCell::default() }
+        Self {
+            source,
+            owner,
+            start,
+            values,
+            asked: RefCell::default(),
+        }
     }
 
     pub(crate) fn owner(&self) -> &str {
@@ -90,13 +106,17 @@ impl<'d> Table<'d> {
     }
 
     fn offset(&self, key: &str) -> usize {
-        self.values.get_key_value(key).map_or(self.start, |(key, _)| key.span().start)
+        self.values
+            .get_key_value(key)
+            .map_or(self.start, |(key, _)| key.span().start)
     }
 
     fn error_at(&self, offset: usize, message: impl Display) -> SceneError {
         match self.owner.as_str() {
             "" => self.source.error(offset, message),
-            owner => self.source.error(offset, format_args!("{owner}: {message}")),
+            owner => self
+                .source
+                .error(offset, format_args!("{owner}: {message}")),
         }
     }
 
@@ -130,13 +150,21 @@ impl<'d> Table<'d> {
     pub(crate) fn required<T>(&self, key: &'static str, value: Option<T>) -> Result<T, SceneError> {
         value.ok_or_else(|| {
             // A misspelt key explains a missing one better than its absence does.
-            let known: Vec<_> = self.asked.borrow().iter().copied().filter(|k| !self.values.contains_key(*k)).collect();
+            let known: Vec<_> = self
+                .asked
+                .borrow()
+                .iter()
+                .copied()
+                .filter(|k| !self.values.contains_key(*k))
+                .collect();
             let misspelt = self
                 .values
                 .iter()
                 .map(|(found, _)| found)
                 .filter(|found| !self.asked.borrow().contains(&found.get_ref().as_ref()))
-                .find(|found| suggest(found.get_ref(), known.iter().copied()).contains(&format!("`{key}`")));
+                .find(|found| {
+                    suggest(found.get_ref(), known.iter().copied()).contains(&format!("`{key}`"))
+                });
             match misspelt {
                 Some(found) => self.unknown(found.get_ref(), found.span().start, &known),
                 None => self.error_here(format_args!("key `{key}` is missing")),
@@ -162,7 +190,9 @@ impl<'d> Table<'d> {
 
     /// A finite number, integer or float.
     pub(crate) fn number(&self, key: &'static str) -> Result<Option<f64>, SceneError> {
-        self.get(key).map(|value| self.to_number(key, value.get_ref())).transpose()
+        self.get(key)
+            .map(|value| self.to_number(key, value.get_ref()))
+            .transpose()
     }
 
     /// A length above zero.
@@ -181,7 +211,9 @@ impl<'d> Table<'d> {
         key: &'static str,
         range: RangeInclusive<u32>,
     ) -> Result<Option<u32>, SceneError> {
-        let Some(value) = self.get(key) else { return Ok(None) };
+        let Some(value) = self.get(key) else {
+            return Ok(None);
+        };
         self.to_count(key, value.get_ref(), &range).map(Some)
     }
 
@@ -199,7 +231,10 @@ impl<'d> Table<'d> {
             .filter(|count| range.contains(count))
             .ok_or_else(|| {
                 let (low, high) = (range.start(), range.end());
-                self.error(key, format_args!("must be from {low} to {high}, not {integer}"))
+                self.error(
+                    key,
+                    format_args!("must be from {low} to {high}, not {integer}"),
+                )
             })
     }
 
@@ -209,7 +244,9 @@ impl<'d> Table<'d> {
         key: &'static str,
         range: RangeInclusive<u32>,
     ) -> Result<Option<[u32; 2]>, SceneError> {
-        let Some(value) = self.get(key) else { return Ok(None) };
+        let Some(value) = self.get(key) else {
+            return Ok(None);
+        };
         match value.get_ref() {
             DeValue::Array(array) if array.len() == 2 => Ok(Some([
                 self.to_count(key, array[0].get_ref(), &range)?,
@@ -224,7 +261,9 @@ impl<'d> Table<'d> {
         &self,
         key: &'static str,
     ) -> Result<Option<[f64; N]>, SceneError> {
-        self.get(key).map(|value| self.to_numbers(key, value.get_ref())).transpose()
+        self.get(key)
+            .map(|value| self.to_numbers(key, value.get_ref()))
+            .transpose()
     }
 
     fn to_numbers<const N: usize>(
@@ -255,9 +294,11 @@ impl<'d> Table<'d> {
     ) -> Result<Option<Vec<[f64; N]>>, SceneError> {
         match self.get(key).map(Spanned::get_ref) {
             None => Ok(None),
-            Some(DeValue::Array(array)) => {
-                array.iter().map(|row| self.to_numbers(key, row.get_ref())).collect::<Result<_, _>>().map(Some)
-            }
+            Some(DeValue::Array(array)) => array
+                .iter()
+                .map(|row| self.to_numbers(key, row.get_ref()))
+                .collect::<Result<_, _>>()
+                .map(Some),
             Some(other) => Err(self.wrong_type(key, other, "an array of arrays")),
         }
     }
@@ -281,7 +322,9 @@ impl<'d> Table<'d> {
     pub(crate) fn scale(&self, key: &'static str) -> Result<Option<DVec3>, SceneError> {
         match self.get(key).map(Spanned::get_ref) {
             Some(DeValue::Array(_)) => self.vector(key),
-            Some(DeValue::Integer(_) | DeValue::Float(_)) => Ok(self.number(key)?.map(DVec3::splat)),
+            Some(DeValue::Integer(_) | DeValue::Float(_)) => {
+                Ok(self.number(key)?.map(DVec3::splat))
+            }
             Some(other) => Err(self.wrong_type(key, other, "a number or an array of 3 numbers")),
             None => Ok(None),
         }
@@ -299,9 +342,9 @@ impl<'d> Table<'d> {
 
     fn to_number(&self, key: &str, value: &DeValue<'_>) -> Result<f64, SceneError> {
         let number = match value {
-            DeValue::Integer(integer) => {
-                i64::from_str_radix(integer.as_str(), integer.radix()).map(|i| i as f64).ok()
-            }
+            DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix())
+                .map(|i| i as f64)
+                .ok(),
             DeValue::Float(float) => float.as_str().parse().ok(),
             other => return Err(self.wrong_type(key, other, "a number")),
         };
@@ -316,7 +359,9 @@ impl<'d> Table<'d> {
 
     /// A table under a key.
     pub(crate) fn table(&self, key: &'static str) -> Result<Option<Table<'d>>, SceneError> {
-        let Some(value) = self.get(key) else { return Ok(None) };
+        let Some(value) = self.get(key) else {
+            return Ok(None);
+        };
         match value.get_ref() {
             DeValue::Table(values) => {
                 let owner = match self.owner.as_str() {
@@ -367,7 +412,9 @@ impl<'d> Table<'d> {
             .keys()
             .filter(|key| !asked.contains(&key.get_ref().as_ref()))
             .min_by_key(|key| key.span().start)
-            .map_or(Ok(()), |key| Err(self.unknown(key.get_ref(), key.span().start, &asked)))
+            .map_or(Ok(()), |key| {
+                Err(self.unknown(key.get_ref(), key.span().start, &asked))
+            })
     }
 }
 

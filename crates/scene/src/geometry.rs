@@ -28,7 +28,10 @@ pub(crate) struct Transform {
 }
 
 impl Transform {
-    pub(crate) const IDENTITY: Self = Self { linear: DMat3::IDENTITY, translate: DVec3::ZERO };
+    pub(crate) const IDENTITY: Self = Self {
+        linear: DMat3::IDENTITY,
+        translate: DVec3::ZERO,
+    };
 
     fn apply(&self, point: DVec3) -> DVec3 {
         self.linear * point + self.translate
@@ -66,7 +69,11 @@ impl Geometry {
         let high = self.positions.iter().copied().fold(DVec3::MIN, DVec3::max);
         let size = (high - low).max(DVec3::splat(f64::MIN_POSITIVE));
         let color = |index: u32| ((self.positions[index as usize] - low) / size).as_vec3();
-        self.colors = self.triangles.iter().map(|corners| corners.map(color)).collect();
+        self.colors = self
+            .triangles
+            .iter()
+            .map(|corners| corners.map(color))
+            .collect();
     }
 
     /// The mesh in world space. Positions equal after the transform become one, collapsed
@@ -75,9 +82,15 @@ impl Geometry {
         let flip = transform.linear.determinant() < 0.0;
         let to_normal = transform.linear.inverse().transpose();
         let mut used = vec![self.triangles.is_empty(); self.positions.len()];
-        self.triangles.iter().flatten().for_each(|index| used[*index as usize] = true);
+        self.triangles
+            .iter()
+            .flatten()
+            .for_each(|index| used[*index as usize] = true);
 
-        let mut mesh = Mesh { materials: self.materials, ..Mesh::default() };
+        let mut mesh = Mesh {
+            materials: self.materials,
+            ..Mesh::default()
+        };
         let mut seen = HashMap::new();
         let mut merged = vec![0; self.positions.len()];
         for (index, position) in self.positions.iter().enumerate().filter(|(i, _)| used[*i]) {
@@ -86,10 +99,12 @@ impl Geometry {
             if !world.is_finite() {
                 return Err(format!("vertex {} is not finite", index + 1));
             }
-            merged[index] = *seen.entry(world.to_array().map(f32::to_bits)).or_insert_with(|| {
-                mesh.positions.push(world);
-                mesh.positions.len() as u32 - 1
-            });
+            merged[index] = *seen
+                .entry(world.to_array().map(f32::to_bits))
+                .or_insert_with(|| {
+                    mesh.positions.push(world);
+                    mesh.positions.len() as u32 - 1
+                });
         }
 
         for (index, corners) in self.triangles.iter().enumerate() {
@@ -98,13 +113,17 @@ impl Geometry {
                 continue;
             }
             mesh.triangles.push(turned([a, b, c], flip));
-            mesh.material.push(self.material.get(index).copied().unwrap_or(0));
+            mesh.material
+                .push(self.material.get(index).copied().unwrap_or(0));
             if let Some(normals) = self.normals.get(index) {
-                let world = normals.map(|normal| (to_normal * normal).normalize_or_zero().as_vec3());
+                let world =
+                    normals.map(|normal| (to_normal * normal).normalize_or_zero().as_vec3());
                 mesh.normals.push(turned(world, flip));
             }
-            mesh.uvs.extend(self.uvs.get(index).map(|uvs| turned(*uvs, flip)));
-            mesh.colors.extend(self.colors.get(index).map(|colors| turned(*colors, flip)));
+            mesh.uvs
+                .extend(self.uvs.get(index).map(|uvs| turned(*uvs, flip)));
+            mesh.colors
+                .extend(self.colors.get(index).map(|colors| turned(*colors, flip)));
         }
         mesh.repair_normals();
         Ok(mesh)
@@ -125,8 +144,14 @@ impl Mesh {
     /// Zero normals of a file become geometric ones.
     fn repair_normals(&mut self) {
         for index in 0..self.normals.len() {
-            if self.normals[index].iter().any(|normal| normal.length_squared() < 0.5) {
-                let face = self.area_vector(&self.triangles[index]).normalize_or(DVec3::Y).as_vec3();
+            if self.normals[index]
+                .iter()
+                .any(|normal| normal.length_squared() < 0.5)
+            {
+                let face = self
+                    .area_vector(&self.triangles[index])
+                    .normalize_or(DVec3::Y)
+                    .as_vec3();
                 for normal in &mut self.normals[index] {
                     if normal.length_squared() < 0.5 {
                         *normal = face;
@@ -142,8 +167,9 @@ impl Mesh {
         for triangle in &self.triangles {
             let normal = self.area_vector(triangle).normalize_or_zero();
             for corner in 0..3 {
-                let [here, next, previous] = [0, 1, 2]
-                    .map(|offset| self.positions[triangle[(corner + offset) % 3] as usize].as_dvec3());
+                let [here, next, previous] = [0, 1, 2].map(|offset| {
+                    self.positions[triangle[(corner + offset) % 3] as usize].as_dvec3()
+                });
                 let angle = (next - here).angle_between(previous - here);
                 if angle.is_finite() {
                     sums[triangle[corner] as usize] += angle * normal;
@@ -151,7 +177,11 @@ impl Mesh {
             }
         }
         let normal = |index: u32| sums[index as usize].normalize_or_zero().as_vec3();
-        self.normals = self.triangles.iter().map(|corners| corners.map(normal)).collect();
+        self.normals = self
+            .triangles
+            .iter()
+            .map(|corners| corners.map(normal))
+            .collect();
         self.repair_normals();
     }
 
@@ -159,7 +189,11 @@ impl Mesh {
     pub(crate) fn wind_by_normals(&mut self) {
         for index in 0..self.triangles.len() {
             let shading: Vec3 = self.normals[index].iter().sum();
-            if self.area_vector(&self.triangles[index]).dot(shading.as_dvec3()) < 0.0 {
+            if self
+                .area_vector(&self.triangles[index])
+                .dot(shading.as_dvec3())
+                < 0.0
+            {
                 self.triangles[index].swap(1, 2);
                 self.normals[index].swap(1, 2);
                 if let Some(uvs) = self.uvs.get_mut(index) {

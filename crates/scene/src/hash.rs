@@ -33,9 +33,15 @@ pub(crate) fn hash(
             hasher.tag("color");
             hasher.color(*color);
         }
-        Background::Gradient { zenith, horizon, nadir } => {
+        Background::Gradient {
+            zenith,
+            horizon,
+            nadir,
+        } => {
             hasher.tag("gradient");
-            [zenith, horizon, nadir].into_iter().for_each(|color| hasher.color(*color));
+            [zenith, horizon, nadir]
+                .into_iter()
+                .for_each(|color| hasher.color(*color));
         }
     }
     for object in objects {
@@ -46,11 +52,15 @@ pub(crate) fn hash(
         hasher.tag("mirror");
         hasher.mirror(mirror);
     }
-    hasher.0.finalize().iter().fold(String::new(), |mut hex, byte| {
-        // Writing to a string does not fail.
-        let _ = write!(hex, "{byte:02x}");
-        hex
-    })
+    hasher
+        .0
+        .finalize()
+        .iter()
+        .fold(String::new(), |mut hex, byte| {
+            // Writing to a string does not fail.
+            let _ = write!(hex, "{byte:02x}");
+            hex
+        })
 }
 
 struct Hasher(Sha256);
@@ -67,7 +77,10 @@ impl Hasher {
     }
 
     fn vector(&mut self, vector: DVec3) {
-        vector.to_array().into_iter().for_each(|number| self.number(number));
+        vector
+            .to_array()
+            .into_iter()
+            .for_each(|number| self.number(number));
     }
 
     fn color(&mut self, color: Vec3) {
@@ -75,11 +88,15 @@ impl Hasher {
     }
 
     fn floats(&mut self, floats: impl IntoIterator<Item = f32>) {
-        floats.into_iter().for_each(|float| self.0.update(float.to_le_bytes()));
+        floats
+            .into_iter()
+            .for_each(|float| self.0.update(float.to_le_bytes()));
     }
 
     fn counts<'a>(&mut self, counts: impl IntoIterator<Item = &'a u32>) {
-        counts.into_iter().for_each(|count| self.0.update(count.to_le_bytes()));
+        counts
+            .into_iter()
+            .for_each(|count| self.0.update(count.to_le_bytes()));
     }
 
     fn mesh(&mut self, mesh: &Mesh) {
@@ -91,14 +108,29 @@ impl Hasher {
             mesh.colors.len(),
             mesh.materials.len(),
         ];
-        lengths.into_iter().for_each(|length| self.0.update((length as u64).to_le_bytes()));
-        mesh.positions.iter().for_each(|position| self.floats(position.to_array()));
+        lengths
+            .into_iter()
+            .for_each(|length| self.0.update((length as u64).to_le_bytes()));
+        mesh.positions
+            .iter()
+            .for_each(|position| self.floats(position.to_array()));
         self.counts(mesh.triangles.as_flattened());
-        mesh.normals.as_flattened().iter().for_each(|normal| self.floats(normal.to_array()));
-        mesh.uvs.as_flattened().iter().for_each(|uv| self.floats(uv.to_array()));
-        mesh.colors.as_flattened().iter().for_each(|color| self.color(*color));
+        mesh.normals
+            .as_flattened()
+            .iter()
+            .for_each(|normal| self.floats(normal.to_array()));
+        mesh.uvs
+            .as_flattened()
+            .iter()
+            .for_each(|uv| self.floats(uv.to_array()));
+        mesh.colors
+            .as_flattened()
+            .iter()
+            .for_each(|color| self.color(*color));
         self.counts(&mesh.material);
-        mesh.materials.iter().for_each(|material| self.paint(&material.paint));
+        mesh.materials
+            .iter()
+            .for_each(|material| self.paint(&material.paint));
     }
 
     fn paint(&mut self, paint: &Paint) {
@@ -131,18 +163,39 @@ impl Hasher {
                 self.vector(*center);
                 self.number(*radius);
             }
-            Shape::Ellipsoid { center, radii, rotation } => {
+            Shape::Ellipsoid {
+                center,
+                radii,
+                rotation,
+            } => {
                 self.tag("ellipsoid");
                 self.vector(*center);
                 self.vector(*radii);
-                rotation.to_cols_array().into_iter().for_each(|number| self.number(number));
+                rotation
+                    .to_cols_array()
+                    .into_iter()
+                    .for_each(|number| self.number(number));
             }
-            Shape::Plane { center, normal, up, size } => {
+            Shape::Plane {
+                center,
+                normal,
+                up,
+                size,
+            } => {
                 self.tag("plane");
-                [center, normal, up].into_iter().for_each(|vector| self.vector(*vector));
-                size.to_array().into_iter().for_each(|number| self.number(number));
+                [center, normal, up]
+                    .into_iter()
+                    .for_each(|vector| self.vector(*vector));
+                size.to_array()
+                    .into_iter()
+                    .for_each(|number| self.number(number));
             }
-            Shape::Bowl { center, radius, axis, half_angle } => {
+            Shape::Bowl {
+                center,
+                radius,
+                axis,
+                half_angle,
+            } => {
                 self.tag("bowl");
                 self.vector(*center);
                 self.number(*radius);

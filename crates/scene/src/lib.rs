@@ -69,8 +69,14 @@ impl Scene {
 
     /// `(id, name, is_mirror)` of everything, objects first, ids ascending from 1.
     pub fn ids(&self) -> Vec<(u32, String, bool)> {
-        let objects = self.objects.iter().map(|object| (object.name.clone(), false));
-        let mirrors = self.mirrors.iter().map(|mirror| (mirror.name.clone(), true));
+        let objects = self
+            .objects
+            .iter()
+            .map(|object| (object.name.clone(), false));
+        let mirrors = self
+            .mirrors
+            .iter()
+            .map(|mirror| (mirror.name.clone(), true));
         objects
             .chain(mirrors)
             .zip(1..)
@@ -80,12 +86,18 @@ impl Scene {
 
     /// Unique vertex positions of all objects: what a search has to find reflections of.
     pub fn vertex_count(&self) -> usize {
-        self.objects.iter().map(|object| object.mesh.positions.len()).sum()
+        self.objects
+            .iter()
+            .map(|object| object.mesh.positions.len())
+            .sum()
     }
 
     /// Triangles of all objects, mirrors not counted.
     pub fn triangle_count(&self) -> usize {
-        self.objects.iter().map(|object| object.mesh.triangles.len()).sum()
+        self.objects
+            .iter()
+            .map(|object| object.mesh.triangles.len())
+            .sum()
     }
 }
 

@@ -20,13 +20,24 @@ pub struct LoadOptions {
 pub fn open(name_or_path: &str, options: &LoadOptions) -> Result<Scene, SceneError> {
     if let Some(text) = builtin::text(name_or_path) {
         let file = &format!("{name_or_path}.toml");
-        return read(&text, &Origin { name: name_or_path, file, folder: None, options });
+        return read(
+            &text,
+            &Origin {
+                name: name_or_path,
+                file,
+                folder: None,
+                options,
+            },
+        );
     }
     let path = Path::new(name_or_path);
     if path.extension().is_none_or(|extension| extension != "toml") {
         let names = builtin::names();
         let suggestion = suggest(name_or_path, names.iter().map(String::as_str));
-        return Err(SceneError::Unknown { name: name_or_path.to_owned(), suggestion });
+        return Err(SceneError::Unknown {
+            name: name_or_path.to_owned(),
+            suggestion,
+        });
     }
     let text = std::fs::read_to_string(path).map_err(|error| SceneError::File {
         file: name_or_path.to_owned(),
@@ -34,5 +45,13 @@ pub fn open(name_or_path: &str, options: &LoadOptions) -> Result<Scene, SceneErr
     })?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let folder = Some(path.parent().unwrap_or(Path::new("")).to_owned());
-    read(&text, &Origin { name: &stem, file: name_or_path, folder, options })
+    read(
+        &text,
+        &Origin {
+            name: &stem,
+            file: name_or_path,
+            folder,
+            options,
+        },
+    )
 }

@@ -24,7 +24,10 @@ pub(crate) fn read(path: &Path) -> Result<Vec<Material>, SceneError> {
         let (key, rest) = (words.next().unwrap_or(""), words.collect::<Vec<_>>());
         if key == "newmtl" {
             let paint = Paint::Color(DEFAULT_COLOR);
-            materials.push(Material { name: rest.join(" "), paint });
+            materials.push(Material {
+                name: rest.join(" "),
+                paint,
+            });
         } else if key == "Kd" || key == "map_Kd" {
             let Some(material) = materials.last_mut() else {
                 return Err(error(format!("`{key}` before the first `newmtl`")));
@@ -37,7 +40,8 @@ pub(crate) fn read(path: &Path) -> Result<Vec<Material>, SceneError> {
                     paint => *paint = Paint::Color(kd),
                 }
             } else {
-                let name = texture_name(&rest).ok_or_else(|| error("`map_Kd` names no file".to_owned()))?;
+                let name = texture_name(&rest)
+                    .ok_or_else(|| error("`map_Kd` names no file".to_owned()))?;
                 let file = folder.join(name);
                 let image = match textures.get(&file) {
                     Some(image) => Arc::clone(image),
@@ -81,15 +85,28 @@ fn texture_name(words: &[&str]) -> Option<PathBuf> {
 
 /// Decodes a PNG or JPEG picture from sRGB to linear RGB.
 fn texture(path: &Path) -> Result<Texture, String> {
-    let picture = image::open(path).map_err(|error| error.to_string())?.to_rgb8();
+    let picture = image::open(path)
+        .map_err(|error| error.to_string())?
+        .to_rgb8();
     let linear: Vec<f32> = (0..=255u8).map(srgb_to_linear).collect();
-    let texels = picture.pixels().map(|p| Vec3::from(p.0.map(|byte| linear[usize::from(byte)]))).collect();
-    Ok(Texture { width: picture.width(), height: picture.height(), texels })
+    let texels = picture
+        .pixels()
+        .map(|p| Vec3::from(p.0.map(|byte| linear[usize::from(byte)])))
+        .collect();
+    Ok(Texture {
+        width: picture.width(),
+        height: picture.height(),
+        texels,
+    })
 }
 
 fn srgb_to_linear(byte: u8) -> f32 {
     let value = f64::from(byte) / 255.0;
-    let linear = if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) };
+    let linear = if value <= 0.04045 {
+        value / 12.92
+    } else {
+        ((value + 0.055) / 1.055).powf(2.4)
+    };
     linear as f32
 }
 
@@ -104,7 +121,11 @@ pub(crate) fn read_text(path: &Path) -> Result<String, SceneError> {
 
 /// An error at a line of an OBJ or MTL file.
 pub(crate) fn at_line(path: &Path, line: usize, message: impl Into<String>) -> SceneError {
-    SceneError::AtLine { file: path.display().to_string(), line, message: message.into() }
+    SceneError::AtLine {
+        file: path.display().to_string(),
+        line,
+        message: message.into(),
+    }
 }
 
 #[cfg(test)]
@@ -130,17 +151,23 @@ mod tests {
     #[test]
     fn colours_and_textures() {
         let folder = tempfile::tempdir().unwrap();
-        image::RgbImage::from_pixel(2, 1, image::Rgb([255, 128, 0])).save(folder.path().join("t.png")).unwrap();
+        image::RgbImage::from_pixel(2, 1, image::Rgb([255, 128, 0]))
+            .save(folder.path().join("t.png"))
+            .unwrap();
         let path = folder.path().join("m.mtl");
         std::fs::write(&path, "newmtl a b\nKd 0.1 0.2 0.3\nnewmtl t\nmap_Kd t.png\nnewmtl u\nmap_Kd t.png\nKd .5 .5 .5\n")
             .unwrap();
         let materials = read(&path).unwrap();
         assert_eq!(materials[0].name, "a b");
         assert!(matches!(materials[0].paint, Paint::Color(c) if c == Vec3::new(0.1, 0.2, 0.3)));
-        let Paint::Texture { tint, image } = &materials[1].paint else { panic!("no texture") };
+        let Paint::Texture { tint, image } = &materials[1].paint else {
+            panic!("no texture")
+        };
         assert_eq!((*tint, image.width, image.height), (Vec3::ONE, 2, 1));
         assert!((image.texels[0].y - 0.215_86).abs() < 1e-5);
-        let Paint::Texture { tint, image: same } = &materials[2].paint else { panic!("no texture") };
+        let Paint::Texture { tint, image: same } = &materials[2].paint else {
+            panic!("no texture")
+        };
         assert_eq!(*tint, Vec3::splat(0.5));
         assert!(Arc::ptr_eq(image, same));
     }

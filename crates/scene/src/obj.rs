@@ -35,7 +35,11 @@ pub(crate) fn read(path: &Path, materials: &Materials) -> Result<Geometry, Scene
             for (line, library) in &scan.libraries {
                 let file = folder.join(library);
                 if !file.is_file() {
-                    return Err(at_line(path, *line, format!("no file `{}`", file.display())));
+                    return Err(at_line(
+                        path,
+                        *line,
+                        format!("no file `{}`", file.display()),
+                    ));
                 }
                 palette.extend(mtl::read(&file)?);
             }
@@ -50,9 +54,16 @@ pub(crate) fn read(path: &Path, materials: &Materials) -> Result<Geometry, Scene
         Materials::Other(_) => true,
         Materials::Ignored => false,
     };
-    let unknown = scan.materials.iter().find(|(_, name)| !by_name.contains_key(name.as_str()));
+    let unknown = scan
+        .materials
+        .iter()
+        .find(|(_, name)| !by_name.contains_key(name.as_str()));
     if let Some((line, name)) = unknown.filter(|_| names_a_library) {
-        return Err(at_line(path, *line, format!("no material `{name}` in its MTL file")));
+        return Err(at_line(
+            path,
+            *line,
+            format!("no material `{name}` in its MTL file"),
+        ));
     }
 
     // The loader learns all materials from the first library named, so one has to be.
@@ -66,15 +77,25 @@ pub(crate) fn read(path: &Path, materials: &Materials) -> Result<Geometry, Scene
     };
     let loaded = tobj::load_obj_buf(&mut Cursor::new(text.as_bytes()), &options, |_| {
         let names = palette_names.take().unwrap_or_default();
-        let materials = vec![tobj::Material::default(); if names.is_empty() { 0 } else { palette.len() }];
-        Ok((materials, names.iter().map(|(name, index)| ((*name).to_owned(), *index)).collect()))
+        let materials =
+            vec![tobj::Material::default(); if names.is_empty() { 0 } else { palette.len() }];
+        Ok((
+            materials,
+            names
+                .iter()
+                .map(|(name, index)| ((*name).to_owned(), *index))
+                .collect(),
+        ))
     });
     let (models, _) = loaded.map_err(|error| SceneError::File {
         file: path.display().to_string(),
         message: error.to_string(),
     })?;
     let fallback = palette.len() as u32;
-    palette.push(Material { name: "default".to_owned(), paint: Paint::Color(DEFAULT_COLOR) });
+    palette.push(Material {
+        name: "default".to_owned(),
+        paint: Paint::Color(DEFAULT_COLOR),
+    });
     let geometry = assemble(&models, &scan, palette, fallback);
     if geometry.triangles.is_empty() {
         return Err(SceneError::File {
@@ -93,24 +114,45 @@ fn assemble(
     palette: Vec<Material>,
     fallback: u32,
 ) -> Geometry {
-    let mut geometry = Geometry { materials: palette, ..Geometry::default() };
-    let meshes = || models.iter().map(|model| &model.mesh).filter(|mesh| !mesh.indices.is_empty());
+    let mut geometry = Geometry {
+        materials: palette,
+        ..Geometry::default()
+    };
+    let meshes = || {
+        models
+            .iter()
+            .map(|model| &model.mesh)
+            .filter(|mesh| !mesh.indices.is_empty())
+    };
     let [_, uvs, normals] = scan.everywhere;
-    let textured = geometry.materials.iter().any(|m| matches!(m.paint, Paint::Texture { .. }));
+    let textured = geometry
+        .materials
+        .iter()
+        .any(|m| matches!(m.paint, Paint::Texture { .. }));
     let colors = meshes().all(|mesh| !mesh.vertex_color.is_empty());
     for mesh in meshes() {
         let start = geometry.positions.len() as u32;
-        geometry.positions.extend(mesh.positions.chunks_exact(3).map(|p| Vec3::from_slice(p).as_dvec3()));
+        geometry.positions.extend(
+            mesh.positions
+                .chunks_exact(3)
+                .map(|p| Vec3::from_slice(p).as_dvec3()),
+        );
         for (face, corners) in mesh.indices.chunks_exact(3).enumerate() {
-            geometry.triangles.push([0, 1, 2].map(|corner| start + corners[corner]));
-            geometry.material.push(mesh.material_id.map_or(fallback, |id| id as u32));
+            geometry
+                .triangles
+                .push([0, 1, 2].map(|corner| start + corners[corner]));
+            geometry
+                .material
+                .push(mesh.material_id.map_or(fallback, |id| id as u32));
             let three = |values: &[f32], indices: &[u32], corner: usize| {
                 let at = 3 * index(indices, 3 * face + corner, corners[corner]);
                 Vec3::from_slice(&values[at..at + 3])
             };
             if normals {
                 let corner = |corner| three(&mesh.normals, &mesh.normal_indices, corner).as_dvec3();
-                geometry.normals.push([0, 1, 2].map(corner).map(DVec3::normalize_or_zero));
+                geometry
+                    .normals
+                    .push([0, 1, 2].map(corner).map(DVec3::normalize_or_zero));
             }
             if uvs || textured {
                 // A part without coordinates beside one with them shows one texel.
@@ -121,7 +163,9 @@ fn assemble(
                 geometry.uvs.push([0, 1, 2].map(corner));
             }
             if colors {
-                geometry.colors.push([0, 1, 2].map(|corner| three(&mesh.vertex_color, &[], corner)));
+                geometry
+                    .colors
+                    .push([0, 1, 2].map(|corner| three(&mesh.vertex_color, &[], corner)));
             }
         }
     }
@@ -145,7 +189,11 @@ struct Scan {
 
 /// Finds what is wrong with numbers and indices, and what the file refers to.
 fn scan(path: &Path, text: &str) -> Result<Scan, SceneError> {
-    let mut scan = Scan { everywhere: [true; 3], libraries: Vec::new(), materials: Vec::new() };
+    let mut scan = Scan {
+        everywhere: [true; 3],
+        libraries: Vec::new(),
+        materials: Vec::new(),
+    };
     // Positions, texture coordinates and normals so far.
     let mut counts = [0i64; 3];
     let mut faces = 0;
@@ -162,7 +210,9 @@ fn scan(path: &Path, text: &str) -> Result<Scan, SceneError> {
                 let values = words.map(|word| word.parse().ok().filter(|v: &f32| v.is_finite()));
                 let values: Option<Vec<f32>> = values.collect();
                 let Some(values) = values else {
-                    return Err(error(format!("`{key}` has a value that is no finite number")));
+                    return Err(error(format!(
+                        "`{key}` has a value that is no finite number"
+                    )));
                 };
                 if values.len() < wanted {
                     return Err(error(format!("`{key}` needs {wanted} numbers")));
@@ -172,7 +222,9 @@ fn scan(path: &Path, text: &str) -> Result<Scan, SceneError> {
                         counts[0] += 1;
                         let color = values.len() >= 6;
                         if *colored.get_or_insert(color) != color {
-                            return Err(error("either all vertices have colours or none".to_owned()));
+                            return Err(error(
+                                "either all vertices have colours or none".to_owned(),
+                            ));
                         }
                     }
                     "vt" => counts[1] += 1,
@@ -205,23 +257,36 @@ fn scan(path: &Path, text: &str) -> Result<Scan, SceneError> {
                     }
                 }
             }
-            "mtllib" => scan.libraries.push((number, words.collect::<Vec<_>>().join(" "))),
-            "usemtl" => scan.materials.push((number, words.collect::<Vec<_>>().join(" "))),
+            "mtllib" => scan
+                .libraries
+                .push((number, words.collect::<Vec<_>>().join(" "))),
+            "usemtl" => scan
+                .materials
+                .push((number, words.collect::<Vec<_>>().join(" "))),
             _ => {}
         }
     }
-    let beyond = ahead.into_iter().find(|(_, index, kind)| *index > counts[*kind]);
+    let beyond = ahead
+        .into_iter()
+        .find(|(_, index, kind)| *index > counts[*kind]);
     if let Some((line, index, kind)) = beyond {
         return Err(out_of_range(path, line, index, kind, counts[kind]));
     }
     if faces == 0 {
         let message = "the mesh is empty: no face".to_owned();
-        return Err(SceneError::File { file: path.display().to_string(), message });
+        return Err(SceneError::File {
+            file: path.display().to_string(),
+            message,
+        });
     }
     Ok(scan)
 }
 
 fn out_of_range(path: &Path, line: usize, index: i64, kind: usize, count: i64) -> SceneError {
     let what = ["vertex", "texture coordinate", "normal"][kind];
-    at_line(path, line, format!("{what} index {index} is out of range: there are {count}"))
+    at_line(
+        path,
+        line,
+        format!("{what} index {index} is out of range: there are {count}"),
+    )
 }

@@ -15,18 +15,37 @@ impl Shape {
                 let roots = sphere_roots((origin - *center) / *radius, dir / *radius)?;
                 let t = roots.into_iter().find(|t| *t > t_min)?;
                 let normal = (origin + t * dir - *center).normalize();
-                Some(SurfaceHit { t, position: *center + *radius * normal, normal })
+                Some(SurfaceHit {
+                    t,
+                    position: *center + *radius * normal,
+                    normal,
+                })
             }
-            Self::Ellipsoid { center, radii, rotation } => {
+            Self::Ellipsoid {
+                center,
+                radii,
+                rotation,
+            } => {
                 let to_local = rotation.transpose();
                 let local_origin = to_local * (origin - *center) / *radii;
                 let local_dir = to_local * dir / *radii;
-                let t = sphere_roots(local_origin, local_dir)?.into_iter().find(|t| *t > t_min)?;
+                let t = sphere_roots(local_origin, local_dir)?
+                    .into_iter()
+                    .find(|t| *t > t_min)?;
                 let on_unit = (local_origin + t * local_dir).normalize();
                 let position = *center + *rotation * (on_unit * *radii);
-                Some(SurfaceHit { t, position, normal: (*rotation * (on_unit / *radii)).normalize() })
+                Some(SurfaceHit {
+                    t,
+                    position,
+                    normal: (*rotation * (on_unit / *radii)).normalize(),
+                })
             }
-            Self::Plane { center, normal, up, size } => {
+            Self::Plane {
+                center,
+                normal,
+                up,
+                size,
+            } => {
                 let towards = dir.dot(*normal);
                 if towards == 0.0 {
                     return None;
@@ -39,9 +58,18 @@ impl Shape {
                 let (x, y) = (offset.dot(up.cross(*normal)), offset.dot(*up));
                 let inside = x.abs() <= size.x / 2.0 && y.abs() <= size.y / 2.0;
                 let position = *center + offset - offset.dot(*normal) * *normal;
-                inside.then_some(SurfaceHit { t, position, normal: *normal })
+                inside.then_some(SurfaceHit {
+                    t,
+                    position,
+                    normal: *normal,
+                })
             }
-            Self::Bowl { center, radius, axis, half_angle } => {
+            Self::Bowl {
+                center,
+                radius,
+                axis,
+                half_angle,
+            } => {
                 let rim = half_angle.cos();
                 sphere_roots((origin - *center) / *radius, dir / *radius)?
                     .into_iter()
@@ -63,7 +91,11 @@ impl Shape {
     pub fn normal_at(&self, point: DVec3) -> Option<DVec3> {
         match self {
             Self::Sphere { center, .. } => Some((point - *center).normalize()),
-            Self::Ellipsoid { center, radii, rotation } => {
+            Self::Ellipsoid {
+                center,
+                radii,
+                rotation,
+            } => {
                 let local = rotation.transpose() * (point - *center);
                 Some((*rotation * (local / (*radii * *radii))).normalize())
             }
@@ -91,16 +123,21 @@ impl Shape {
     /// True where no point can have more than one reflection point: sphere, ellipsoid, plane.
     /// False for bowls, and for meshes, of which it is not known.
     pub fn is_convex(&self) -> bool {
-        matches!(self, Self::Sphere { .. } | Self::Ellipsoid { .. } | Self::Plane { .. })
+        matches!(
+            self,
+            Self::Sphere { .. } | Self::Ellipsoid { .. } | Self::Plane { .. }
+        )
     }
 
     /// True for a point strictly inside a closed surface.
     pub fn contains(&self, point: DVec3) -> bool {
         match self {
             Self::Sphere { center, radius } => point.distance(*center) < *radius,
-            Self::Ellipsoid { center, radii, rotation } => {
-                (rotation.transpose() * (point - *center) / *radii).length() < 1.0
-            }
+            Self::Ellipsoid {
+                center,
+                radii,
+                rotation,
+            } => (rotation.transpose() * (point - *center) / *radii).length() < 1.0,
             Self::Plane { .. } | Self::Bowl { .. } => false,
             Self::Mesh(mesh) => mesh.is_closed() && mesh.winding_number(point).abs() > 0.5,
         }
@@ -114,9 +151,9 @@ impl Shape {
             | Self::Ellipsoid { center, .. }
             | Self::Plane { center, .. }
             | Self::Bowl { center, .. } => *center,
-            Self::Mesh(mesh) => mesh
-                .bounds()
-                .map_or(DVec3::ZERO, |(low, high)| (low.as_dvec3() + high.as_dvec3()) / 2.0),
+            Self::Mesh(mesh) => mesh.bounds().map_or(DVec3::ZERO, |(low, high)| {
+                (low.as_dvec3() + high.as_dvec3()) / 2.0
+            }),
         }
     }
 
@@ -128,7 +165,11 @@ impl Shape {
             Self::Sphere { center, radius } | Self::Bowl { center, radius, .. } => {
                 around(*center, DVec3::splat(*radius))
             }
-            Self::Ellipsoid { center, radii, rotation } => {
+            Self::Ellipsoid {
+                center,
+                radii,
+                rotation,
+            } => {
                 let axes = *rotation * DMat3::from_diagonal(*radii);
                 let rows = axes.transpose();
                 let half = DVec3::new(
@@ -138,13 +179,20 @@ impl Shape {
                 );
                 around(*center, half)
             }
-            Self::Plane { center, normal, up, size } => {
+            Self::Plane {
+                center,
+                normal,
+                up,
+                size,
+            } => {
                 let half = (up.cross(*normal) * size.x / 2.0).abs() + (*up * size.y / 2.0).abs();
                 around(*center, half)
             }
             Self::Mesh(mesh) => mesh
                 .bounds()
-                .map_or((DVec3::ZERO, DVec3::ZERO), |(low, high)| (low.as_dvec3(), high.as_dvec3())),
+                .map_or((DVec3::ZERO, DVec3::ZERO), |(low, high)| {
+                    (low.as_dvec3(), high.as_dvec3())
+                }),
         }
     }
 }
@@ -165,14 +213,22 @@ fn sphere_roots(origin: DVec3, dir: DVec3) -> Option<[f64; 2]> {
     let c = (distance - 1.0) * (distance + 1.0);
     let q = -(b + (a * inside).sqrt().copysign(b));
     let (first, second) = if q == 0.0 { (0.0, 0.0) } else { (q / a, c / q) };
-    Some(if first <= second { [first, second] } else { [second, first] })
+    Some(if first <= second {
+        [first, second]
+    } else {
+        [second, first]
+    })
 }
 
 impl Mesh {
     /// Corners of the smallest axis-parallel box around all positions; `None` without positions.
     pub fn bounds(&self) -> Option<(glam::Vec3, glam::Vec3)> {
         let first = *self.positions.first()?;
-        Some(self.positions.iter().fold((first, first), |(low, high), p| (low.min(*p), high.max(*p))))
+        Some(
+            self.positions
+                .iter()
+                .fold((first, first), |(low, high), p| (low.min(*p), high.max(*p))),
+        )
     }
 
     /// True where each edge joins exactly two triangles of opposite edge direction.
@@ -180,7 +236,11 @@ impl Mesh {
         let mut edges = std::collections::HashMap::new();
         for &[a, b, c] in &self.triangles {
             for (from, to) in [(a, b), (b, c), (c, a)] {
-                let (key, sign) = if from < to { ((from, to), 1i64) } else { ((to, from), -1) };
+                let (key, sign) = if from < to {
+                    ((from, to), 1i64)
+                } else {
+                    ((to, from), -1)
+                };
                 let (count, sum) = edges.entry(key).or_insert((0u32, 0i64));
                 *count += 1;
                 *sum += sign;

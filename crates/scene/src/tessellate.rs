@@ -9,7 +9,10 @@ use crate::mirror::Shape;
 
 /// A mirror's proxy has no colour of its own.
 fn no_paint() -> Material {
-    Material { name: "mirror".to_owned(), paint: Paint::Color(Vec3::ZERO) }
+    Material {
+        name: "mirror".to_owned(),
+        paint: Paint::Color(Vec3::ZERO),
+    }
 }
 
 impl Shape {
@@ -21,13 +24,28 @@ impl Shape {
             Self::Sphere { center, radius } => {
                 closed(segments, |unit| (*center + *radius * unit, unit))
             }
-            Self::Ellipsoid { center, radii, rotation } => closed(segments, |unit| {
-                (*center + *rotation * (unit * *radii), (*rotation * (unit / *radii)).normalize())
+            Self::Ellipsoid {
+                center,
+                radii,
+                rotation,
+            } => closed(segments, |unit| {
+                (
+                    *center + *rotation * (unit * *radii),
+                    (*rotation * (unit / *radii)).normalize(),
+                )
             }),
-            Self::Plane { center, normal, up, size } => {
-                rectangle(*center, *normal, *up, size.x / 2.0, size.y / 2.0)
-            }
-            Self::Bowl { center, radius, axis, half_angle } => {
+            Self::Plane {
+                center,
+                normal,
+                up,
+                size,
+            } => rectangle(*center, *normal, *up, size.x / 2.0, size.y / 2.0),
+            Self::Bowl {
+                center,
+                radius,
+                axis,
+                half_angle,
+            } => {
                 let side = axis.any_orthonormal_vector();
                 let other = axis.cross(side);
                 // Latitude runs from the rim towards the axis; the mirrored frame (side and
@@ -53,13 +71,20 @@ impl Shape {
             Self::Sphere { center, radius } => {
                 closed(segments, |unit| (*center + *radius * grow * unit, unit))
             }
-            Self::Ellipsoid { center, radii, rotation } => closed(segments, |unit| {
+            Self::Ellipsoid {
+                center,
+                radii,
+                rotation,
+            } => closed(segments, |unit| {
                 let normal = (*rotation * (unit / *radii)).normalize();
                 (*center + *rotation * (unit * *radii * grow), normal)
             }),
-            Self::Plane { center, normal, up, size } => {
-                rectangle(*center, *normal, *up, size.x * 0.5005, size.y * 0.5005)
-            }
+            Self::Plane {
+                center,
+                normal,
+                up,
+                size,
+            } => rectangle(*center, *normal, *up, size.x * 0.5005, size.y * 0.5005),
             Self::Bowl { center, radius, .. } => {
                 closed(segments, |unit| (*center + *radius * grow * unit, -unit))
             }
@@ -78,12 +103,7 @@ fn closed(segments: u32, map: impl Fn(DVec3) -> (DVec3, DVec3)) -> Mesh {
 
 /// Rings of a polar grid from the pole to `end`; with `pole` a single vertex closes the far side.
 /// Counter-clockwise where `∂/∂polar × ∂/∂around` points to the viewer.
-fn patch(
-    segments: u32,
-    end: f64,
-    pole: bool,
-    map: impl Fn(f64, f64) -> (DVec3, DVec3),
-) -> Mesh {
+fn patch(segments: u32, end: f64, pole: bool, map: impl Fn(f64, f64) -> (DVec3, DVec3)) -> Mesh {
     let segments = segments.max(4);
     let rings = segments / 2;
     let mut points = vec![map(0.0, 0.0)];
@@ -91,7 +111,10 @@ fn patch(
     for ring in 1..=last_open {
         let polar = end * f64::from(ring) / f64::from(rings);
         for segment in 0..segments {
-            points.push(map(polar, 2.0 * PI * f64::from(segment) / f64::from(segments)));
+            points.push(map(
+                polar,
+                2.0 * PI * f64::from(segment) / f64::from(segments),
+            ));
         }
     }
     let at = |ring: u32, segment: u32| 1 + (ring - 1) * segments + segment % segments;
@@ -119,16 +142,27 @@ fn patch(
 /// Two triangles around `center`, `half_width` along `up × normal` and `half_height` along `up`.
 fn rectangle(center: DVec3, normal: DVec3, up: DVec3, half_width: f64, half_height: f64) -> Mesh {
     let (x, y) = (up.cross(normal) * half_width, up * half_height);
-    let points =
-        [center - x - y, center + x - y, center + x + y, center - x + y].map(|p| (p, normal));
+    let points = [
+        center - x - y,
+        center + x - y,
+        center + x + y,
+        center - x + y,
+    ]
+    .map(|p| (p, normal));
     assemble(&points, vec![[0, 1, 2], [0, 2, 3]])
 }
 
 fn assemble(points: &[(DVec3, DVec3)], triangles: Vec<[u32; 3]>) -> Mesh {
     let normal = |index: u32| points[index as usize].1.as_vec3();
     Mesh {
-        positions: points.iter().map(|(position, _)| position.as_vec3()).collect(),
-        normals: triangles.iter().map(|corners| corners.map(normal)).collect(),
+        positions: points
+            .iter()
+            .map(|(position, _)| position.as_vec3())
+            .collect(),
+        normals: triangles
+            .iter()
+            .map(|corners| corners.map(normal))
+            .collect(),
         material: vec![0; triangles.len()],
         materials: vec![no_paint()],
         triangles,

@@ -10,10 +10,18 @@ fn all_load_and_say_why() {
         assert!(names.contains(&info.name));
         assert!(info.why.len() > 20, "{}", info.name);
         let needs_models = ["teapot-ball", "sponza-ball"].contains(&info.name.as_str());
-        assert_eq!(info.available, !needs_models, "{}: {:?}", info.name, info.reason);
+        assert_eq!(
+            info.available, !needs_models,
+            "{}: {:?}",
+            info.name, info.reason
+        );
         assert_eq!(info.reason.is_some(), needs_models);
         if info.available {
-            assert!(info.objects > 0 && info.mirrors > 0 && info.vertices > 0, "{}", info.name);
+            assert!(
+                info.objects > 0 && info.mirrors > 0 && info.vertices > 0,
+                "{}",
+                info.name
+            );
         }
     }
 }
@@ -38,9 +46,11 @@ fn sizes_are_what_the_names_say() {
 
 #[test]
 fn prototype_mirrors_cover_the_pixels_they_should() {
-    for (name, pixels) in
-        [("prototype-sphere", 141_144), ("prototype-ellipsoid", 68_890), ("prototype-bowl", 161_269)]
-    {
+    for (name, pixels) in [
+        ("prototype-sphere", 141_144),
+        ("prototype-ellipsoid", 68_890),
+        ("prototype-bowl", 161_269),
+    ] {
         let scene = open(name, &LoadOptions::default()).unwrap();
         let [width, height] = scene.camera.resolution;
         let view = scene.camera.view(scene.camera.resolution);
@@ -63,12 +73,23 @@ fn the_hash_knows_what_a_picture_shows() {
     let scene = |name: &str| open(name, &options).unwrap();
     assert_eq!(scene("spheres").hash, scene("spheres").hash);
     assert_eq!(scene("spheres").hash.len(), 64);
-    let larger = LoadOptions { resolution: Some([32, 16]), ..LoadOptions::default() };
+    let larger = LoadOptions {
+        resolution: Some([32, 16]),
+        ..LoadOptions::default()
+    };
     let resized = open("spheres", &larger).unwrap();
-    assert_eq!(resized.hash, scene("spheres").hash, "resolution is not in the hash");
+    assert_eq!(
+        resized.hash,
+        scene("spheres").hash,
+        "resolution is not in the hash"
+    );
     assert_eq!(resized.camera.resolution, [32, 16]);
     assert_ne!(scene("sphere-grid-100").hash, scene("sphere-grid-300").hash);
-    let mut hashes: Vec<_> = builtin::names().iter().filter_map(|n| open(n, &options).ok()).map(|s| s.hash).collect();
+    let mut hashes: Vec<_> = builtin::names()
+        .iter()
+        .filter_map(|n| open(n, &options).ok())
+        .map(|s| s.hash)
+        .collect();
     let count = hashes.len();
     hashes.sort();
     hashes.dedup();

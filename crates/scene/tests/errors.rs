@@ -28,7 +28,9 @@ radius = 1.0
 fn message(folder: &Path, text: &str) -> Option<String> {
     let path = folder.join("bad.toml");
     std::fs::write(&path, text).unwrap();
-    open(path.to_str().unwrap(), &LoadOptions::default()).err().map(|error| error.to_string())
+    open(path.to_str().unwrap(), &LoadOptions::default())
+        .err()
+        .map(|error| error.to_string())
 }
 
 #[test]
@@ -45,72 +47,320 @@ fn messages_name_file_line_and_key() {
     let cases: &[(&str, &str, usize, &[&str])] = &[
         ("why = \"A test.\"", "", 1, &["`why`", "missing"]),
         ("why = \"A test.\"", "why = \"\"", 1, &["`why`"]),
-        ("why = \"A test.\"", "why = 3", 1, &["`why`", "a string, not a number"]),
+        (
+            "why = \"A test.\"",
+            "why = 3",
+            1,
+            &["`why`", "a string, not a number"],
+        ),
         ("why", "whi", 1, &["unknown key `whi`", "`why`"]),
-        ("[camera]", "[kamera]", 2, &["unknown key `kamera`", "`camera`"]),
-        ("[[object]]", "[[objekt]]", 8, &["unknown key `objekt`", "`object`"]),
+        (
+            "[camera]",
+            "[kamera]",
+            2,
+            &["unknown key `kamera`", "`camera`"],
+        ),
+        (
+            "[[object]]",
+            "[[objekt]]",
+            8,
+            &["unknown key `objekt`", "`object`"],
+        ),
         ("[[object]]", "[object]", 8, &["`object`", "[[object]]"]),
-        ("eye = ", "eyes = ", 3, &["camera", "unknown key `eyes`", "`eye`"]),
-        ("eye = [0.0, 0.0, 5.0]", "", 2, &["camera", "`eye`", "missing"]),
-        ("eye = [0.0, 0.0, 5.0]", "eye = [0.0, 0.0]", 3, &["`eye`", "3 numbers, not of 2"]),
-        ("eye = [0.0, 0.0, 5.0]", "eye = [0.0, 0.0, nan]", 3, &["`eye`", "finite"]),
-        ("eye = [0.0, 0.0, 5.0]", "eye = [0.0, inf, 5.0]", 3, &["`eye`", "finite"]),
-        ("eye = [0.0, 0.0, 5.0]", "eye = [0.0, 1e300, 5.0]", 3, &["`eye`", "range"]),
-        ("eye = [0.0, 0.0, 5.0]", "eye = [0.0, 0.0, 0.5]", 3, &["`eye`", "inside mirror \"ball\""]),
-        ("eye = [0.0, 0.0, 5.0]", "eye = [0.0, 0.0, 0.0]", 4, &["`target`", "same point"]),
-        ("fov_y = 40.0", "fov_y = 40.0\nup = [0, 0, 1]", 6, &["`up`", "parallel"]),
-        ("fov_y = 40.0", "up = [0, 0, 0]", 5, &["`up`", "zero vector"]),
+        (
+            "eye = ",
+            "eyes = ",
+            3,
+            &["camera", "unknown key `eyes`", "`eye`"],
+        ),
+        (
+            "eye = [0.0, 0.0, 5.0]",
+            "",
+            2,
+            &["camera", "`eye`", "missing"],
+        ),
+        (
+            "eye = [0.0, 0.0, 5.0]",
+            "eye = [0.0, 0.0]",
+            3,
+            &["`eye`", "3 numbers, not of 2"],
+        ),
+        (
+            "eye = [0.0, 0.0, 5.0]",
+            "eye = [0.0, 0.0, nan]",
+            3,
+            &["`eye`", "finite"],
+        ),
+        (
+            "eye = [0.0, 0.0, 5.0]",
+            "eye = [0.0, inf, 5.0]",
+            3,
+            &["`eye`", "finite"],
+        ),
+        (
+            "eye = [0.0, 0.0, 5.0]",
+            "eye = [0.0, 1e300, 5.0]",
+            3,
+            &["`eye`", "range"],
+        ),
+        (
+            "eye = [0.0, 0.0, 5.0]",
+            "eye = [0.0, 0.0, 0.5]",
+            3,
+            &["`eye`", "inside mirror \"ball\""],
+        ),
+        (
+            "eye = [0.0, 0.0, 5.0]",
+            "eye = [0.0, 0.0, 0.0]",
+            4,
+            &["`target`", "same point"],
+        ),
+        (
+            "fov_y = 40.0",
+            "fov_y = 40.0\nup = [0, 0, 1]",
+            6,
+            &["`up`", "parallel"],
+        ),
+        (
+            "fov_y = 40.0",
+            "up = [0, 0, 0]",
+            5,
+            &["`up`", "zero vector"],
+        ),
         ("fov_y = 40.0", "", 2, &["`fov_y`", "missing"]),
         ("fov_y = 40.0", "fov_y = 0.0", 5, &["`fov_y`", "180"]),
         ("fov_y = 40.0", "fov_x = 180", 5, &["`fov_x`", "180"]),
-        ("fov_y = 40.0", "fov_y = 40.0\nfov_x = 50", 6, &["`fov_x`", "`fov_y`"]),
-        ("fov_y = 40.0", "fov_y = 40.0\nresolution = [0, 10]", 6, &["`resolution`", "from 1"]),
-        ("fov_y = 40.0", "fov_y = 40.0\nresolution = [-1, 10]", 6, &["`resolution`", "from 1"]),
-        ("fov_y = 40.0", "fov_y = 40.0\nresolution = [1.5, 10]", 6, &["`resolution`", "whole"]),
-        ("color = [0.1, 0.2, 0.3]", "", 6, &["background", "`gradient`"]),
-        ("color = [0.1, 0.2, 0.3]", "color = [-1, 0, 0]", 7, &["`color`", "negative"]),
-        ("color = [0.1, 0.2, 0.3]", "gradient = { zenith = [0, 0, 0], horizon = [0, 0, 0] }", 7, &["`nadir`"]),
-        ("color = [0.1, 0.2, 0.3]", "color = \"red\"", 7, &["`color`", "not a string"]),
-        ("checker = {", "colour = {", 12, &["object \"floor\": unknown key `colour`", "`color`"]),
-        ("checker = {", "color = [1, 1, 1]\nchecker = {", 12, &["`color`", "`checker`"]),
-        ("cells = 4 }", "cells = 0 }", 12, &["object \"floor\": checker: `cells`", "from 1"]),
+        (
+            "fov_y = 40.0",
+            "fov_y = 40.0\nfov_x = 50",
+            6,
+            &["`fov_x`", "`fov_y`"],
+        ),
+        (
+            "fov_y = 40.0",
+            "fov_y = 40.0\nresolution = [0, 10]",
+            6,
+            &["`resolution`", "from 1"],
+        ),
+        (
+            "fov_y = 40.0",
+            "fov_y = 40.0\nresolution = [-1, 10]",
+            6,
+            &["`resolution`", "from 1"],
+        ),
+        (
+            "fov_y = 40.0",
+            "fov_y = 40.0\nresolution = [1.5, 10]",
+            6,
+            &["`resolution`", "whole"],
+        ),
+        (
+            "color = [0.1, 0.2, 0.3]",
+            "",
+            6,
+            &["background", "`gradient`"],
+        ),
+        (
+            "color = [0.1, 0.2, 0.3]",
+            "color = [-1, 0, 0]",
+            7,
+            &["`color`", "negative"],
+        ),
+        (
+            "color = [0.1, 0.2, 0.3]",
+            "gradient = { zenith = [0, 0, 0], horizon = [0, 0, 0] }",
+            7,
+            &["`nadir`"],
+        ),
+        (
+            "color = [0.1, 0.2, 0.3]",
+            "color = \"red\"",
+            7,
+            &["`color`", "not a string"],
+        ),
+        (
+            "checker = {",
+            "colour = {",
+            12,
+            &["object \"floor\": unknown key `colour`", "`color`"],
+        ),
+        (
+            "checker = {",
+            "color = [1, 1, 1]\nchecker = {",
+            12,
+            &["`color`", "`checker`"],
+        ),
+        (
+            "cells = 4 }",
+            "cells = 0 }",
+            12,
+            &["object \"floor\": checker: `cells`", "from 1"],
+        ),
         ("b = [0, 0, 0], ", "", 12, &["checker", "`b`", "missing"]),
-        ("shape = \"grid\"\nn = 4", "shape = \"gird\"", 10, &["`gird`", "`grid`"]),
-        ("shape = \"grid\"", "shape = \"box\"\nmesh = \"a.obj\"", 11, &["`mesh`", "`shape`"]),
-        ("shape = \"grid\"\nn = 4", "", 8, &["object \"floor\"", "`mesh` or `shape`"]),
-        ("shape = \"grid\"", "shape = \"box\"\nradius = 2", 11, &["unknown key `radius`"]),
-        ("shape = \"grid\"\nn = 4", "mesh = \"none.obj\"", 10, &["none.obj", "models folder"]),
-        ("scale = 2.0", "scale = 0.0", 13, &["object \"floor\": transform: `scale`", "zero"]),
-        ("scale = 2.0", "scale = [1, 0, 1]", 13, &["transform: `scale`", "zero"]),
-        ("scale = 2.0", "scale = true", 13, &["transform: `scale`", "not true or false"]),
-        ("rotate_deg", "rotate", 13, &["unknown key `rotate`", "`rotate_deg`"]),
-        ("\"ball\"", "\"floor\"", 15, &["`name`", "`floor` is used twice"]),
+        (
+            "shape = \"grid\"\nn = 4",
+            "shape = \"gird\"",
+            10,
+            &["`gird`", "`grid`"],
+        ),
+        (
+            "shape = \"grid\"",
+            "shape = \"box\"\nmesh = \"a.obj\"",
+            11,
+            &["`mesh`", "`shape`"],
+        ),
+        (
+            "shape = \"grid\"\nn = 4",
+            "",
+            8,
+            &["object \"floor\"", "`mesh` or `shape`"],
+        ),
+        (
+            "shape = \"grid\"",
+            "shape = \"box\"\nradius = 2",
+            11,
+            &["unknown key `radius`"],
+        ),
+        (
+            "shape = \"grid\"\nn = 4",
+            "mesh = \"none.obj\"",
+            10,
+            &["none.obj", "models folder"],
+        ),
+        (
+            "scale = 2.0",
+            "scale = 0.0",
+            13,
+            &["object \"floor\": transform: `scale`", "zero"],
+        ),
+        (
+            "scale = 2.0",
+            "scale = [1, 0, 1]",
+            13,
+            &["transform: `scale`", "zero"],
+        ),
+        (
+            "scale = 2.0",
+            "scale = true",
+            13,
+            &["transform: `scale`", "not true or false"],
+        ),
+        (
+            "rotate_deg",
+            "rotate",
+            13,
+            &["unknown key `rotate`", "`rotate_deg`"],
+        ),
+        (
+            "\"ball\"",
+            "\"floor\"",
+            15,
+            &["`name`", "`floor` is used twice"],
+        ),
         ("\"ball\"", "\"\"", 15, &["`name`", "empty"]),
-        ("radius = 1.0", "radius = 0", 18, &["mirror \"ball\": `radius`", "positive"]),
-        ("radius = 1.0", "radius = -1.0", 18, &["mirror \"ball\": `radius`", "positive"]),
-        ("radius = 1.0", "", 14, &["mirror \"ball\"", "`radius`", "missing"]),
-        ("radius = 1.0", "radius = 1.0\ntessellation = 2", 19, &["`tessellation`", "from 4"]),
-        ("center = [0.0, 0.0, 0.0]", "centre = [0.0, 0.0, 0.0]", 17, &["`centre`", "`center`"]),
-        ("\"sphere\"", "\"torus\"", 16, &["`torus`", "not yet supported"]),
-        ("\"sphere\"", "\"saddle\"", 16, &["`saddle`", "not yet supported"]),
+        (
+            "radius = 1.0",
+            "radius = 0",
+            18,
+            &["mirror \"ball\": `radius`", "positive"],
+        ),
+        (
+            "radius = 1.0",
+            "radius = -1.0",
+            18,
+            &["mirror \"ball\": `radius`", "positive"],
+        ),
+        (
+            "radius = 1.0",
+            "",
+            14,
+            &["mirror \"ball\"", "`radius`", "missing"],
+        ),
+        (
+            "radius = 1.0",
+            "radius = 1.0\ntessellation = 2",
+            19,
+            &["`tessellation`", "from 4"],
+        ),
+        (
+            "center = [0.0, 0.0, 0.0]",
+            "centre = [0.0, 0.0, 0.0]",
+            17,
+            &["`centre`", "`center`"],
+        ),
+        (
+            "\"sphere\"",
+            "\"torus\"",
+            16,
+            &["`torus`", "not yet supported"],
+        ),
+        (
+            "\"sphere\"",
+            "\"saddle\"",
+            16,
+            &["`saddle`", "not yet supported"],
+        ),
         ("\"sphere\"", "\"spere\"", 16, &["`spere`", "`sphere`"]),
-        (sphere, "shape = \"ellipsoid\"\nradii = [1, 0, 1]", 17, &["`radii`", "positive"]),
-        (sphere, "shape = \"ellipsoid\"\nradii = [9, 9, 9]", 3, &["`eye`", "inside"]),
-        (sphere, "shape = \"plane\"\nnormal = [0, 0, 1]\nsize = [0, 1]", 18, &["`size`", "area"]),
-        (sphere, "shape = \"plane\"\nnormal = [0, 1, 0]\nsize = [1, 1]\nup = [0, 2, 0]", 19, &["`up`", "parallel"]),
-        (sphere, "shape = \"bowl\"\nradius = 1\naxis = [0, 0, 1]\nhalf_angle_deg = 180", 19, &["`half_angle_deg`", "180"]),
-        (sphere, "shape = \"bowl\"\nradius = 1\naxis = [0, 0, 1]\nhalf_angle_deg = 0", 19, &["`half_angle_deg`"]),
+        (
+            sphere,
+            "shape = \"ellipsoid\"\nradii = [1, 0, 1]",
+            17,
+            &["`radii`", "positive"],
+        ),
+        (
+            sphere,
+            "shape = \"ellipsoid\"\nradii = [9, 9, 9]",
+            3,
+            &["`eye`", "inside"],
+        ),
+        (
+            sphere,
+            "shape = \"plane\"\nnormal = [0, 0, 1]\nsize = [0, 1]",
+            18,
+            &["`size`", "area"],
+        ),
+        (
+            sphere,
+            "shape = \"plane\"\nnormal = [0, 1, 0]\nsize = [1, 1]\nup = [0, 2, 0]",
+            19,
+            &["`up`", "parallel"],
+        ),
+        (
+            sphere,
+            "shape = \"bowl\"\nradius = 1\naxis = [0, 0, 1]\nhalf_angle_deg = 180",
+            19,
+            &["`half_angle_deg`", "180"],
+        ),
+        (
+            sphere,
+            "shape = \"bowl\"\nradius = 1\naxis = [0, 0, 1]\nhalf_angle_deg = 0",
+            19,
+            &["`half_angle_deg`"],
+        ),
         (sphere, "", 14, &["`shape` or `mesh`"]),
-        ("[[mirror]]", "[motion]\norbit = 1\n[[mirror]]", 14, &["`motion`", "not yet supported"]),
+        (
+            "[[mirror]]",
+            "[motion]\norbit = 1\n[[mirror]]",
+            14,
+            &["`motion`", "not yet supported"],
+        ),
         ("[camera]", "[camera", 2, &[]),
-        ("n = 4\nchecker", "n = 4\nn = 5\nchecker", 12, &["duplicate"]),
+        (
+            "n = 4\nchecker",
+            "n = 4\nn = 5\nchecker",
+            12,
+            &["duplicate"],
+        ),
     ];
     for (old, new, line, parts) in cases {
         assert!(GOOD.contains(old), "{old}");
         let text = GOOD.replacen(old, new, 1);
         let message = message(folder.path(), &text).unwrap_or_else(|| panic!("accepted: {new}"));
         let place = format!("bad.toml:{line}: ");
-        assert!(message.contains(&place), "{new}\n→ {message}, not line {line}");
+        assert!(
+            message.contains(&place),
+            "{new}\n→ {message}, not line {line}"
+        );
         for part in *parts {
             assert!(message.contains(part), "{new}\n→ {message}, without {part}");
         }
@@ -126,7 +376,10 @@ fn points_need_what_they_are_made_from() {
         message(folder.path(), &text)
     };
     assert_eq!(points("positions = [[0, 0, 1], [1, 2, 3]]"), None);
-    assert_eq!(points("count = 5\nseed = 3\nt = [0.1, 2.0]\nmirror = \"ball\""), None);
+    assert_eq!(
+        points("count = 5\nseed = 3\nt = [0.1, 2.0]\nmirror = \"ball\""),
+        None
+    );
     for (keys, line, part) in [
         ("", 19, "`count`"),
         ("positions = []", 22, "`positions`"),
@@ -139,7 +392,10 @@ fn points_need_what_they_are_made_from() {
         ("count = 2\ncolour = [1, 1, 1]", 23, "`colour`"),
     ] {
         let message = points(keys).unwrap_or_else(|| panic!("accepted: {keys}"));
-        assert!(message.contains(&format!("bad.toml:{line}: ")), "{keys}\n→ {message}");
+        assert!(
+            message.contains(&format!("bad.toml:{line}: ")),
+            "{keys}\n→ {message}"
+        );
         assert!(message.contains(part), "{keys}\n→ {message}");
     }
 }
@@ -153,7 +409,13 @@ fn names_that_are_no_scene() {
 
 #[test]
 fn the_command_lines_resolution_is_checked_too() {
-    let options = LoadOptions { resolution: Some([0, 5]), ..LoadOptions::default() };
+    let options = LoadOptions {
+        resolution: Some([0, 5]),
+        ..LoadOptions::default()
+    };
     let message = open("sphere-square", &options).unwrap_err().to_string();
-    assert!(message.contains("`resolution`") && message.contains("0x5"), "{message}");
+    assert!(
+        message.contains("`resolution`") && message.contains("0x5"),
+        "{message}"
+    );
 }

@@ -5,7 +5,8 @@ use std::path::Path;
 use catoptric_scene::{LoadOptions, Paint, Scene, SceneError, Shape, open};
 use glam::Vec3;
 
-const HEAD: &str = "why = \"A test.\"\n[camera]\neye = [0, 0, 50]\ntarget = [0, 0, 0]\nfov_y = 30\n";
+const HEAD: &str =
+    "why = \"A test.\"\n[camera]\neye = [0, 0, 50]\ntarget = [0, 0, 0]\nfov_y = 30\n";
 
 fn load(folder: &Path, body: &str) -> Result<Scene, SceneError> {
     let path = folder.join("scene.toml");
@@ -16,8 +17,16 @@ fn load(folder: &Path, body: &str) -> Result<Scene, SceneError> {
 fn with_obj(obj: &str, body: &str) -> Result<Scene, SceneError> {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("a.obj"), obj).unwrap();
-    std::fs::write(folder.path().join("a.mtl"), "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n").unwrap();
-    std::fs::write(folder.path().join("b.mtl"), "newmtl red\nKd 0 1 0\nnewmtl blue\nKd 0 1 1\n").unwrap();
+    std::fs::write(
+        folder.path().join("a.mtl"),
+        "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n",
+    )
+    .unwrap();
+    std::fs::write(
+        folder.path().join("b.mtl"),
+        "newmtl red\nKd 0 1 0\nnewmtl blue\nKd 0 1 1\n",
+    )
+    .unwrap();
     load(folder.path(), body)
 }
 
@@ -31,7 +40,9 @@ fn polygons_become_triangles() {
     assert_eq!((mesh.positions.len(), mesh.triangles.len()), (5, 3));
     assert!(mesh.normals.is_empty() && mesh.uvs.is_empty() && mesh.colors.is_empty());
     assert_eq!(scene.objects[0].name, "object 1");
-    assert!(matches!(mesh.materials[mesh.material[0] as usize].paint, Paint::Color(c) if c == Vec3::splat(0.8)));
+    assert!(
+        matches!(mesh.materials[mesh.material[0] as usize].paint, Paint::Color(c) if c == Vec3::splat(0.8))
+    );
 }
 
 #[test]
@@ -46,7 +57,12 @@ fn relative_indices_normals_and_texture_coordinates() {
 #[test]
 fn normals_that_some_corners_lack_are_left_out() {
     let obj = format!("{SQUARE}vn 0 0 1\nf 1//1 2//1 3//1\nf 1 3 4\n");
-    assert!(with_obj(&obj, MESH).unwrap().objects[0].mesh.normals.is_empty());
+    assert!(
+        with_obj(&obj, MESH).unwrap().objects[0]
+            .mesh
+            .normals
+            .is_empty()
+    );
 }
 
 #[test]
@@ -71,8 +87,14 @@ fn materials_are_the_files_or_replaced() {
             .collect()
     };
     assert_eq!(colors(MESH), [Vec3::X, Vec3::Z]);
-    assert_eq!(colors(&format!("{MESH}mtl = \"b.mtl\"\n")), [Vec3::Y, Vec3::new(0.0, 1.0, 1.0)]);
-    assert_eq!(colors(&format!("{MESH}color = [0.5, 0.5, 0.5]\n")), [Vec3::splat(0.5); 2]);
+    assert_eq!(
+        colors(&format!("{MESH}mtl = \"b.mtl\"\n")),
+        [Vec3::Y, Vec3::new(0.0, 1.0, 1.0)]
+    );
+    assert_eq!(
+        colors(&format!("{MESH}color = [0.5, 0.5, 0.5]\n")),
+        [Vec3::splat(0.5); 2]
+    );
 }
 
 #[test]
@@ -81,9 +103,19 @@ fn vertex_colours() {
     let body = format!("{MESH}vertex_colors = true\n");
     let mesh = &with_obj(obj, &body).unwrap().objects[0].mesh;
     assert_eq!(mesh.colors, [[Vec3::X, Vec3::Y, Vec3::Z]]);
-    assert!(with_obj(obj, MESH).unwrap().objects[0].mesh.colors.is_empty());
-    let message = with_obj(&format!("{SQUARE}f 1 2 3\n"), &body).unwrap_err().to_string();
-    assert!(message.contains("scene.toml:8") && message.contains("`vertex_colors`"), "{message}");
+    assert!(
+        with_obj(obj, MESH).unwrap().objects[0]
+            .mesh
+            .colors
+            .is_empty()
+    );
+    let message = with_obj(&format!("{SQUARE}f 1 2 3\n"), &body)
+        .unwrap_err()
+        .to_string();
+    assert!(
+        message.contains("scene.toml:8") && message.contains("`vertex_colors`"),
+        "{message}"
+    );
 }
 
 #[test]
@@ -92,19 +124,46 @@ fn what_is_wrong_with_an_obj_is_told_with_its_line() {
         ("v 0 0 nan\n", "a.obj:1: `v`"),
         ("v 0 0 0\nv 0 x 0\n", "a.obj:2: `v`"),
         ("v 0 0\n", "a.obj:1: `v` needs 3"),
-        ("v 0 0 0\nv 1 0 0\nf 1 2 3\n", "a.obj:3: vertex index 3 is out of range: there are 2"),
-        ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n", "a.obj:4: vertex index 0"),
-        ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n", "a.obj:4: vertex index -4"),
-        ("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/2 3/1\n", "a.obj:5: texture coordinate index 2"),
-        ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1//1 2//1 3//1\n", "a.obj:4: normal index 1"),
-        ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\n", "a.obj:4: a face needs"),
+        (
+            "v 0 0 0\nv 1 0 0\nf 1 2 3\n",
+            "a.obj:3: vertex index 3 is out of range: there are 2",
+        ),
+        (
+            "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n",
+            "a.obj:4: vertex index 0",
+        ),
+        (
+            "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n",
+            "a.obj:4: vertex index -4",
+        ),
+        (
+            "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/2 3/1\n",
+            "a.obj:5: texture coordinate index 2",
+        ),
+        (
+            "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1//1 2//1 3//1\n",
+            "a.obj:4: normal index 1",
+        ),
+        (
+            "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\n",
+            "a.obj:4: a face needs",
+        ),
         ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 c\n", "a.obj:4: `c`"),
         ("v 0 0 0 1 1 1\nv 1 0 0\n", "a.obj:2: either all"),
         ("v 0 0 0\n", "a.obj: the mesh is empty"),
         ("", "a.obj: the mesh is empty"),
-        ("v 0 0 0\nv 1 0 0\nf 1 2 1\n", "scene.toml:6: object 1: the mesh is empty"),
-        ("mtllib c.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "a.obj:1: no file `"),
-        ("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl green\nf 1 2 3\n", "a.obj:5: no material `green`"),
+        (
+            "v 0 0 0\nv 1 0 0\nf 1 2 1\n",
+            "scene.toml:6: object 1: the mesh is empty",
+        ),
+        (
+            "mtllib c.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+            "a.obj:1: no file `",
+        ),
+        (
+            "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl green\nf 1 2 3\n",
+            "a.obj:5: no material `green`",
+        ),
     ] {
         let message = with_obj(obj, MESH).unwrap_err().to_string();
         assert!(message.contains(wanted), "{message}, not {wanted}");
@@ -119,9 +178,18 @@ fn scale_comes_before_rotation_before_translation() {
     let mesh = &load(folder.path(), body).unwrap().objects[0].mesh;
     // (1, 0, 1) → scaled (2, 0, 1) → about x (2, −1, 0) → about z (1, 2, 0) → moved (11, 2, 0).
     let corner = Vec3::new(11.0, 2.0, 0.0);
-    assert!(mesh.positions.iter().any(|p| p.distance(corner) < 1e-6), "{:?}", mesh.positions);
+    assert!(
+        mesh.positions.iter().any(|p| p.distance(corner) < 1e-6),
+        "{:?}",
+        mesh.positions
+    );
     // Normal +y → about x +z → about z +z.
-    assert!(mesh.normals.as_flattened().iter().all(|n| n.distance(Vec3::Z) < 1e-6));
+    assert!(
+        mesh.normals
+            .as_flattened()
+            .iter()
+            .all(|n| n.distance(Vec3::Z) < 1e-6)
+    );
 }
 
 #[test]
@@ -155,13 +223,22 @@ fn normals_stay_perpendicular_and_outside_under_any_transform() {
 fn mesh_mirrors_have_shading_normals_and_matching_winding() {
     let cube = "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n\
         f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 4 1 5 8\n";
-    let scene = with_obj(cube, "[[mirror]]\nmesh = \"a.obj\"\ntransform = { scale = 2 }\n").unwrap();
+    let scene = with_obj(
+        cube,
+        "[[mirror]]\nmesh = \"a.obj\"\ntransform = { scale = 2 }\n",
+    )
+    .unwrap();
     let shape = &scene.mirrors[0].shape;
-    let Shape::Mesh(mesh) = shape else { panic!("no mesh") };
+    let Shape::Mesh(mesh) = shape else {
+        panic!("no mesh")
+    };
     for (corners, normals) in mesh.triangles.iter().zip(&mesh.normals) {
         for (index, normal) in corners.iter().zip(normals) {
             let outward = mesh.positions[*index as usize].normalize();
-            assert!(normal.distance(outward) < 1e-5, "angle weights make corners symmetric");
+            assert!(
+                normal.distance(outward) < 1e-5,
+                "angle weights make corners symmetric"
+            );
         }
     }
     assert!(shape.is_closed() && !shape.is_analytic());
@@ -169,7 +246,9 @@ fn mesh_mirrors_have_shading_normals_and_matching_winding() {
 
     let inward = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 -1\nf 1//1 2//1 3//1\n";
     let scene = with_obj(inward, "[[mirror]]\nmesh = \"a.obj\"\n").unwrap();
-    let Shape::Mesh(mesh) = &scene.mirrors[0].shape else { panic!("no mesh") };
+    let Shape::Mesh(mesh) = &scene.mirrors[0].shape else {
+        panic!("no mesh")
+    };
     let [a, b, c] = mesh.triangles[0].map(|index| mesh.positions[index as usize]);
     assert!((b - a).cross(c - a).z < 0.0, "wound towards its normals");
 }
@@ -182,8 +261,13 @@ fn an_eye_inside_a_closed_mesh_mirror_is_rejected() {
         "v -99 -99 -99\nv 999 -99 -99\nv -99 999 -99\nv -99 -99 999\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n",
     )
     .unwrap();
-    let message = load(folder.path(), "[[mirror]]\nmesh = \"a.obj\"\n").unwrap_err().to_string();
-    assert!(message.contains("scene.toml:3: camera: `eye` lies inside mirror 1"), "{message}");
+    let message = load(folder.path(), "[[mirror]]\nmesh = \"a.obj\"\n")
+        .unwrap_err()
+        .to_string();
+    assert!(
+        message.contains("scene.toml:3: camera: `eye` lies inside mirror 1"),
+        "{message}"
+    );
 }
 
 #[test]
@@ -195,9 +279,20 @@ fn models_are_found_in_a_folder_of_their_own() {
     for file in ["a.obj", "a/a.obj"] {
         let path = folder.path().join("scene.toml");
         std::fs::write(&path, format!("{HEAD}[[object]]\nmesh = \"{file}\"\n")).unwrap();
-        let options = LoadOptions { models: Some(models.path().into()), resolution: None };
-        assert_eq!(open(path.to_str().unwrap(), &options).unwrap().triangle_count(), 1);
+        let options = LoadOptions {
+            models: Some(models.path().into()),
+            resolution: None,
+        };
+        assert_eq!(
+            open(path.to_str().unwrap(), &options)
+                .unwrap()
+                .triangle_count(),
+            1
+        );
         let error = open(path.to_str().unwrap(), &LoadOptions::default()).unwrap_err();
-        assert!(matches!(error, SceneError::MissingModel { line: 7, .. }), "{error}");
+        assert!(
+            matches!(error, SceneError::MissingModel { line: 7, .. }),
+            "{error}"
+        );
     }
 }

@@ -5,8 +5,30 @@ use proptest::prelude::*;
 
 /// Words that mean something, and some that do not.
 const WORDS: [&str; 24] = [
-    "[[mirror]]", "[[object]]", "[camera]", "shape", "\"points\"", "\"box\"", "nan", "-inf", "1e400", "0",
-    "-1", "[", "]", "{", "}", "=", "\"", "\n", "count = 3\n", "é", "\"plane\"", "radius = 0", "[[0]]", "99999999999999999999",
+    "[[mirror]]",
+    "[[object]]",
+    "[camera]",
+    "shape",
+    "\"points\"",
+    "\"box\"",
+    "nan",
+    "-inf",
+    "1e400",
+    "0",
+    "-1",
+    "[",
+    "]",
+    "{",
+    "}",
+    "=",
+    "\"",
+    "\n",
+    "count = 3\n",
+    "é",
+    "\"plane\"",
+    "radius = 0",
+    "[[0]]",
+    "99999999999999999999",
 ];
 
 proptest! {

@@ -8,16 +8,33 @@ fn shapes() -> Vec<Shape> {
     let rotation = DMat3::from_rotation_z(0.4) * DMat3::from_rotation_x(-0.7);
     let center = DVec3::new(0.3, -0.2, 0.1);
     vec![
-        Shape::Sphere { center, radius: 1.3 },
-        Shape::Ellipsoid { center, radii: DVec3::new(1.5, 0.3, 0.8), rotation },
+        Shape::Sphere {
+            center,
+            radius: 1.3,
+        },
+        Shape::Ellipsoid {
+            center,
+            radii: DVec3::new(1.5, 0.3, 0.8),
+            rotation,
+        },
         Shape::Plane {
             center,
             normal: rotation * DVec3::Z,
             up: rotation * DVec3::Y,
             size: DVec2::new(2.0, 1.0),
         },
-        Shape::Bowl { center, radius: 1.5, axis: rotation * DVec3::NEG_Z, half_angle: 1.1 },
-        Shape::Bowl { center, radius: 0.7, axis: DVec3::X, half_angle: 2.5 },
+        Shape::Bowl {
+            center,
+            radius: 1.5,
+            axis: rotation * DVec3::NEG_Z,
+            half_angle: 1.1,
+        },
+        Shape::Bowl {
+            center,
+            radius: 0.7,
+            axis: DVec3::X,
+            half_angle: 2.5,
+        },
     ]
 }
 
@@ -30,13 +47,23 @@ fn sample(shape: &Shape, u: f64, v: f64) -> DVec3 {
     };
     match shape {
         Shape::Sphere { center, radius } => *center + *radius * unit(2.0 * v - 1.0),
-        Shape::Ellipsoid { center, radii, rotation } => {
-            *center + *rotation * (unit(2.0 * v - 1.0) * *radii)
-        }
-        Shape::Plane { center, normal, up, size } => {
-            *center + up.cross(*normal) * size.x * (u - 0.5) + *up * size.y * (v - 0.5)
-        }
-        Shape::Bowl { center, radius, axis, half_angle } => {
+        Shape::Ellipsoid {
+            center,
+            radii,
+            rotation,
+        } => *center + *rotation * (unit(2.0 * v - 1.0) * *radii),
+        Shape::Plane {
+            center,
+            normal,
+            up,
+            size,
+        } => *center + up.cross(*normal) * size.x * (u - 0.5) + *up * size.y * (v - 0.5),
+        Shape::Bowl {
+            center,
+            radius,
+            axis,
+            half_angle,
+        } => {
             let local = unit(1.0 - v * (1.0 - half_angle.cos()));
             let (x, y) = axis.any_orthonormal_pair();
             *center + *radius * (x * local.x + y * local.y + *axis * local.z)
@@ -117,7 +144,10 @@ fn proxies_lie_on_the_surface_with_its_normals_and_winding() {
             for (corners, normals) in mesh.triangles.iter().zip(&mesh.normals) {
                 let [a, b, c] = corners.map(|index| mesh.positions[index as usize]);
                 let mean: Vec3 = normals.iter().sum();
-                assert!((b - a).cross(c - a).dot(mean) > 0.0, "{shape:?} winds backwards");
+                assert!(
+                    (b - a).cross(c - a).dot(mean) > 0.0,
+                    "{shape:?} winds backwards"
+                );
                 for (index, normal) in corners.iter().zip(normals) {
                     let position = mesh.positions[*index as usize].as_dvec3();
                     let exact = shape.normal_at(position).unwrap();
@@ -137,7 +167,11 @@ fn proxies_lie_on_the_surface_with_its_normals_and_winding() {
 
 #[test]
 fn a_segment_count_gives_half_as_many_rings() {
-    let mesh = Shape::Sphere { center: DVec3::ZERO, radius: 1.0 }.tessellate(128);
+    let mesh = Shape::Sphere {
+        center: DVec3::ZERO,
+        radius: 1.0,
+    }
+    .tessellate(128);
     assert_eq!(mesh.positions.len(), 2 + 63 * 128);
     assert_eq!(mesh.triangles.len(), 2 * 63 * 128);
 }
@@ -149,7 +183,13 @@ fn covers_of_closed_surfaces_contain_them() {
             let cover = shape.cover(segments);
             for corners in &cover.triangles {
                 let [a, b, c] = corners.map(|index| cover.positions[index as usize].as_dvec3());
-                for weights in [[1.0, 1.0, 1.0], [1.0, 1.0, 0.0], [0.0, 1.0, 1.0], [1.0, 0.0, 1.0], [2.0, 1.0, 2.0]] {
+                for weights in [
+                    [1.0, 1.0, 1.0],
+                    [1.0, 1.0, 0.0],
+                    [0.0, 1.0, 1.0],
+                    [1.0, 0.0, 1.0],
+                    [2.0, 1.0, 2.0],
+                ] {
                     let sum: f64 = weights.iter().sum();
                     let point = (a * weights[0] + b * weights[1] + c * weights[2]) / sum;
                     assert!(!shape.contains(point), "{shape:?} {segments}");
@@ -161,8 +201,13 @@ fn covers_of_closed_surfaces_contain_them() {
 
 #[test]
 fn far_and_tiny_spheres_are_hit_exactly() {
-    let sphere = Shape::Sphere { center: DVec3::ZERO, radius: 1e-3 };
-    let hit = sphere.intersect(DVec3::new(0.0, 0.0, 1e6), DVec3::NEG_Z, 0.0).unwrap();
+    let sphere = Shape::Sphere {
+        center: DVec3::ZERO,
+        radius: 1e-3,
+    };
+    let hit = sphere
+        .intersect(DVec3::new(0.0, 0.0, 1e6), DVec3::NEG_Z, 0.0)
+        .unwrap();
     assert!((hit.t - (1e6 - 1e-3)).abs() < 1e-9);
     assert!(hit.position.distance(DVec3::new(0.0, 0.0, 1e-3)) < 1e-15);
     let inside = sphere.intersect(DVec3::ZERO, DVec3::X, 0.0).unwrap();
@@ -172,10 +217,19 @@ fn far_and_tiny_spheres_are_hit_exactly() {
 
 #[test]
 fn a_bowl_is_hit_on_its_cap_only() {
-    let bowl = Shape::Bowl { center: DVec3::ZERO, radius: 1.0, axis: DVec3::NEG_Z, half_angle: 1.0 };
-    let front = bowl.intersect(DVec3::new(0.0, 0.0, 3.0), DVec3::NEG_Z, 0.0).unwrap();
+    let bowl = Shape::Bowl {
+        center: DVec3::ZERO,
+        radius: 1.0,
+        axis: DVec3::NEG_Z,
+        half_angle: 1.0,
+    };
+    let front = bowl
+        .intersect(DVec3::new(0.0, 0.0, 3.0), DVec3::NEG_Z, 0.0)
+        .unwrap();
     assert!((front.t - 4.0).abs() < 1e-12 && front.normal.distance(DVec3::Z) < 1e-12);
-    let back = bowl.intersect(DVec3::new(0.0, 0.0, -3.0), DVec3::Z, 0.0).unwrap();
+    let back = bowl
+        .intersect(DVec3::new(0.0, 0.0, -3.0), DVec3::Z, 0.0)
+        .unwrap();
     assert!((back.t - 2.0).abs() < 1e-12 && back.normal.dot(DVec3::Z) > 0.0);
     assert!(!bowl.is_closed() && !bowl.is_convex() && !bowl.contains(DVec3::ZERO));
 }
@@ -185,8 +239,15 @@ fn boxes_hold_their_surfaces() {
     for shape in shapes() {
         let (low, high) = shape.bounds();
         for step in 0..400 {
-            let point = sample(&shape, f64::from(step) * 0.618 % 1.0, f64::from(step) / 400.0);
-            assert!(point.cmpge(low - 1e-9).all() && point.cmple(high + 1e-9).all(), "{shape:?}");
+            let point = sample(
+                &shape,
+                f64::from(step) * 0.618 % 1.0,
+                f64::from(step) / 400.0,
+            );
+            assert!(
+                point.cmpge(low - 1e-9).all() && point.cmple(high + 1e-9).all(),
+                "{shape:?}"
+            );
         }
     }
 }

@@ -49,11 +49,19 @@ pub(super) fn camera(
         }
         size => size.or(in_file).unwrap_or([640, 480]),
     };
-    Ok(Camera { eye, target, up, fov, resolution })
+    Ok(Camera {
+        eye,
+        target,
+        up,
+        fov,
+        resolution,
+    })
 }
 
 pub(super) fn background(table: Option<&Table<'_>>) -> Result<Background, SceneError> {
-    let Some(table) = table else { return Ok(Background::Color(Vec3::ZERO)) };
+    let Some(table) = table else {
+        return Ok(Background::Color(Vec3::ZERO));
+    };
     let color = table.color("color")?;
     let gradient = table.table("gradient")?;
     table.finish()?;

@@ -21,7 +21,10 @@ pub(super) fn mirror(table: &Table<'_>, origin: &Origin<'_>) -> Result<Mirror, S
     let shape = match (mesh, shape) {
         (Some(_), Some(_)) => return Err(table.error("mesh", "and `shape` exclude each other")),
         (Some(file), None) => {
-            let surface = Surface::Mesh { file: file.to_owned(), mtl: None };
+            let surface = Surface::Mesh {
+                file: file.to_owned(),
+                mtl: None,
+            };
             Shape::Mesh(reflecting(table, origin, &surface)?)
         }
         (None, Some("sphere")) => sphere(table)?,
@@ -29,11 +32,18 @@ pub(super) fn mirror(table: &Table<'_>, origin: &Origin<'_>) -> Result<Mirror, S
         (None, Some("plane")) => plane(table)?,
         (None, Some("bowl")) => bowl(table)?,
         (None, Some(shape @ ("torus" | "saddle"))) => {
-            return Err(table.error("shape", format_args!("`{shape}` is not yet supported for a mirror")));
+            return Err(table.error(
+                "shape",
+                format_args!("`{shape}` is not yet supported for a mirror"),
+            ));
         }
         (None, Some(shape)) => {
             // A primitive that no exact mirror shares its name with is a mesh mirror.
-            let surface = if SHAPES.contains(&shape) { primitive(table, shape)? } else { None };
+            let surface = if SHAPES.contains(&shape) {
+                primitive(table, shape)?
+            } else {
+                None
+            };
             let Some(surface) = surface else {
                 let suggestion = suggest(shape, SHAPES);
                 let known = SHAPES.join(", ");
@@ -47,7 +57,11 @@ pub(super) fn mirror(table: &Table<'_>, origin: &Origin<'_>) -> Result<Mirror, S
             return Err(table.error_here("needs `shape` or `mesh`"));
         }
     };
-    Ok(Mirror { name, shape, tessellation })
+    Ok(Mirror {
+        name,
+        shape,
+        tessellation,
+    })
 }
 
 fn center(table: &Table<'_>) -> Result<DVec3, SceneError> {
@@ -58,7 +72,10 @@ fn sphere(table: &Table<'_>) -> Result<Shape, SceneError> {
     let center = center(table)?;
     let radius = table.positive("radius")?;
     table.finish()?;
-    Ok(Shape::Sphere { center, radius: table.required("radius", radius)? })
+    Ok(Shape::Sphere {
+        center,
+        radius: table.required("radius", radius)?,
+    })
 }
 
 fn ellipsoid(table: &Table<'_>) -> Result<Shape, SceneError> {
@@ -70,7 +87,11 @@ fn ellipsoid(table: &Table<'_>) -> Result<Shape, SceneError> {
     if radii.min_element() < SMALLEST {
         return Err(table.error("radii", "must be positive"));
     }
-    Ok(Shape::Ellipsoid { center, radii, rotation: rotation(degrees) })
+    Ok(Shape::Ellipsoid {
+        center,
+        radii,
+        rotation: rotation(degrees),
+    })
 }
 
 fn plane(table: &Table<'_>) -> Result<Shape, SceneError> {
@@ -88,7 +109,12 @@ fn plane(table: &Table<'_>) -> Result<Shape, SceneError> {
     if up.length() < 1e-6 {
         return Err(table.error("up", "must not be parallel to `normal`"));
     }
-    Ok(Shape::Plane { center, normal, up: up.normalize(), size })
+    Ok(Shape::Plane {
+        center,
+        normal,
+        up: up.normalize(),
+        size,
+    })
 }
 
 fn bowl(table: &Table<'_>) -> Result<Shape, SceneError> {
@@ -104,7 +130,12 @@ fn bowl(table: &Table<'_>) -> Result<Shape, SceneError> {
         let message = format_args!("must be between 0 and 180 degrees, not {degrees}");
         return Err(table.error("half_angle_deg", message));
     }
-    Ok(Shape::Bowl { center, radius, axis, half_angle: degrees.to_radians() })
+    Ok(Shape::Bowl {
+        center,
+        radius,
+        axis,
+        half_angle: degrees.to_radians(),
+    })
 }
 
 /// A mesh with shading normals: its own, or smooth ones.
@@ -117,11 +148,16 @@ fn reflecting(
     table.finish()?;
     let mut geometry = surface.geometry(table, origin, true)?;
     let paint = Paint::Color(glam::Vec3::ZERO);
-    geometry.materials = vec![Material { name: "mirror".to_owned(), paint }];
+    geometry.materials = vec![Material {
+        name: "mirror".to_owned(),
+        paint,
+    }];
     geometry.material.clear();
     geometry.uvs.clear();
     geometry.colors.clear();
-    let mut mesh = geometry.into_mesh(&transform).map_err(|message| table.error_here(message))?;
+    let mut mesh = geometry
+        .into_mesh(&transform)
+        .map_err(|message| table.error_here(message))?;
     if mesh.triangles.is_empty() {
         return Err(table.error_here("the mesh is empty: no triangle with area"));
     }

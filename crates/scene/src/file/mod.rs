@@ -49,7 +49,10 @@ pub(crate) fn read(text: &str, origin: &Origin<'_>) -> Result<Scene, SceneError>
 
     let mut names = HashSet::new();
     let mut mirrors = Vec::new();
-    let specs = object_tables.iter().map(object::spec).collect::<Result<Vec<_>, _>>()?;
+    let specs = object_tables
+        .iter()
+        .map(object::spec)
+        .collect::<Result<Vec<_>, _>>()?;
     for table in &mirror_tables {
         let mirror = mirror::mirror(table, origin)?;
         if mirror.shape.contains(camera.eye) {

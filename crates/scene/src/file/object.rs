@@ -23,7 +23,10 @@ pub(super) struct Spec {
 enum Form {
     Surface(Surface),
     Points(Vec<DVec3>),
-    Inverse { inverse: Inverse, mirror: Option<String> },
+    Inverse {
+        inverse: Inverse,
+        mirror: Option<String>,
+    },
 }
 
 /// Reads an object's keys.
@@ -39,7 +42,10 @@ pub(super) fn spec(table: &Table<'_>) -> Result<Spec, SceneError> {
         (Some(_), Some(_)) => return Err(table.error("mesh", "and `shape` exclude each other")),
         (Some(file), None) => {
             let mtl = table.string("mtl")?.map(str::to_owned);
-            Some(Form::Surface(Surface::Mesh { file: file.to_owned(), mtl }))
+            Some(Form::Surface(Surface::Mesh {
+                file: file.to_owned(),
+                mtl,
+            }))
         }
         (None, Some("points")) => Some(points(table)?),
         (None, Some(shape)) => match primitive(table, shape)? {
@@ -55,7 +61,9 @@ pub(super) fn spec(table: &Table<'_>) -> Result<Spec, SceneError> {
         (None, None) => None,
     };
     table.finish()?;
-    let Some(form) = form else { return Err(table.error_here("needs `mesh` or `shape`")) };
+    let Some(form) = form else {
+        return Err(table.error_here("needs `mesh` or `shape`"));
+    };
 
     let mut paints = Vec::new();
     paints.extend(color.map(|color| ("color", Paint::Color(color))));
@@ -67,7 +75,12 @@ pub(super) fn spec(table: &Table<'_>) -> Result<Spec, SceneError> {
         return Err(table.error(first, format_args!("and `{second}` exclude each other")));
     }
     let paint = paints.pop().map(|(_, paint)| paint);
-    Ok(Spec { name, form, paint, transform })
+    Ok(Spec {
+        name,
+        form,
+        paint,
+        transform,
+    })
 }
 
 fn paint_checker(table: &Table<'_>) -> Result<Paint, SceneError> {
@@ -75,7 +88,11 @@ fn paint_checker(table: &Table<'_>) -> Result<Paint, SceneError> {
     let b = table.color("b")?;
     let cells = table.count("cells", 1..=65536)?.unwrap_or(8);
     table.finish()?;
-    Ok(Paint::Checker { a: table.required("a", a)?, b: table.required("b", b)?, cells })
+    Ok(Paint::Checker {
+        a: table.required("a", a)?,
+        b: table.required("b", b)?,
+        cells,
+    })
 }
 
 fn points(table: &Table<'_>) -> Result<Form, SceneError> {
@@ -92,9 +109,9 @@ fn points(table: &Table<'_>) -> Result<Form, SceneError> {
         (Some(positions), None) if positions.is_empty() => {
             Err(table.error("positions", "must not be empty"))
         }
-        (Some(positions), None) => {
-            Ok(Form::Points(positions.into_iter().map(DVec3::from_array).collect()))
-        }
+        (Some(positions), None) => Ok(Form::Points(
+            positions.into_iter().map(DVec3::from_array).collect(),
+        )),
         (None, count) => {
             let count = table.required("count", count)?;
             let distance = t.unwrap_or([0.05, 8.0]);
@@ -102,8 +119,15 @@ fn points(table: &Table<'_>) -> Result<Form, SceneError> {
                 return Err(table.error("t", "must be two distances above 0, the least first"));
             }
             let seed = u64::from(seed.unwrap_or(1));
-            let inverse = Inverse { count, seed, distance };
-            Ok(Form::Inverse { inverse, mirror: mirror.map(str::to_owned) })
+            let inverse = Inverse {
+                count,
+                seed,
+                distance,
+            };
+            Ok(Form::Inverse {
+                inverse,
+                mirror: mirror.map(str::to_owned),
+            })
         }
     }
 }
@@ -123,19 +147,25 @@ impl Spec {
     ) -> Result<(String, Mesh), SceneError> {
         let mut geometry = match &self.form {
             Form::Surface(surface) => surface.geometry(table, origin, self.paint.is_some())?,
-            Form::Points(positions) => {
-                Geometry { positions: positions.clone(), ..Geometry::default() }
-            }
+            Form::Points(positions) => Geometry {
+                positions: positions.clone(),
+                ..Geometry::default()
+            },
             Form::Inverse { inverse, mirror } => {
                 let which = chosen(table, mirror.as_deref(), mirrors)?;
                 let positions = inverse_points(inverse, camera, mirrors, which)
                     .map_err(|message| table.error("count", format_args!("points: {message}")))?;
-                Geometry { positions, ..Geometry::default() }
+                Geometry {
+                    positions,
+                    ..Geometry::default()
+                }
             }
         };
         let is_mesh = matches!(self.form, Form::Surface(Surface::Mesh { .. }));
         self.paint(table, &mut geometry, is_mesh)?;
-        let mesh = geometry.into_mesh(&self.transform).map_err(|message| table.error_here(message))?;
+        let mesh = geometry
+            .into_mesh(&self.transform)
+            .map_err(|message| table.error_here(message))?;
         let no_points = !matches!(self.form, Form::Surface(_));
         if mesh.triangles.is_empty() && !no_points {
             return Err(table.error_here("the mesh is empty: no triangle with area"));
@@ -162,7 +192,10 @@ impl Spec {
         }
         if self.paint.is_some() || !is_mesh {
             let paint = self.paint.clone().unwrap_or(Paint::Color(DEFAULT_COLOR));
-            geometry.materials = vec![Material { name: self.name.clone(), paint }];
+            geometry.materials = vec![Material {
+                name: self.name.clone(),
+                paint,
+            }];
             geometry.material.clear();
         }
         Ok(())
@@ -177,7 +210,10 @@ fn chosen(table: &Table<'_>, name: Option<&str>, mirrors: &[Mirror]) -> Result<u
     }) else {
         let names = mirrors.iter().map(|mirror| mirror.name.as_str());
         return Err(match name {
-            Some(name) => table.error("mirror", format_args!("`{name}` is no mirror{}", suggest(name, names))),
+            Some(name) => table.error(
+                "mirror",
+                format_args!("`{name}` is no mirror{}", suggest(name, names)),
+            ),
             None => table.error("count", "needs a mirror in the scene"),
         });
     };

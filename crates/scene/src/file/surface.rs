@@ -13,27 +13,54 @@ use crate::{SceneError, shapes};
 /// Triangles to be made or read.
 pub(super) enum Surface {
     Quad,
-    Grid { cells: u32 },
-    Cuboid { cells: u32 },
-    Sphere { center: DVec3, radius: f64, segments: u32 },
-    Torus { radius: f64, tube: f64, segments: u32 },
-    Lathe { profile: Vec<DVec2>, cells: u32, segments: u32 },
-    Teapot { cells: u32 },
-    Mesh { file: String, mtl: Option<String> },
+    Grid {
+        cells: u32,
+    },
+    Cuboid {
+        cells: u32,
+    },
+    Sphere {
+        center: DVec3,
+        radius: f64,
+        segments: u32,
+    },
+    Torus {
+        radius: f64,
+        tube: f64,
+        segments: u32,
+    },
+    Lathe {
+        profile: Vec<DVec2>,
+        cells: u32,
+        segments: u32,
+    },
+    Teapot {
+        cells: u32,
+    },
+    Mesh {
+        file: String,
+        mtl: Option<String>,
+    },
 }
 
 /// Names of the primitives, for suggestions.
-pub(super) const PRIMITIVES: [&str; 9] =
-    ["quad", "grid", "box", "sphere", "torus", "lathe", "cylinder", "cone", "teapot"];
+pub(super) const PRIMITIVES: [&str; 9] = [
+    "quad", "grid", "box", "sphere", "torus", "lathe", "cylinder", "cone", "teapot",
+];
 
 /// Keys of a primitive; `None` where there is no such primitive.
 pub(super) fn primitive(table: &Table<'_>, shape: &str) -> Result<Option<Surface>, SceneError> {
     let cells = || table.count("n", 1..=2048);
-    let segments = |default| Ok::<_, SceneError>(table.count("segments", 3..=4096)?.unwrap_or(default));
+    let segments =
+        |default| Ok::<_, SceneError>(table.count("segments", 3..=4096)?.unwrap_or(default));
     Ok(Some(match shape {
         "quad" => Surface::Quad,
-        "grid" => Surface::Grid { cells: cells()?.unwrap_or(8) },
-        "box" => Surface::Cuboid { cells: cells()?.unwrap_or(1) },
+        "grid" => Surface::Grid {
+            cells: cells()?.unwrap_or(8),
+        },
+        "box" => Surface::Cuboid {
+            cells: cells()?.unwrap_or(1),
+        },
         "sphere" => Surface::Sphere {
             center: table.vector("center")?.unwrap_or(DVec3::ZERO),
             radius: table.positive("radius")?.unwrap_or(1.0),
@@ -45,7 +72,11 @@ pub(super) fn primitive(table: &Table<'_>, shape: &str) -> Result<Option<Surface
             if tube >= radius {
                 return Err(table.error("tube", "must be smaller than `radius`"));
             }
-            Surface::Torus { radius, tube, segments: segments(48)? }
+            Surface::Torus {
+                radius,
+                tube,
+                segments: segments(48)?,
+            }
         }
         "lathe" => {
             let rows = table.rows::<2>("profile")?;
@@ -55,17 +86,38 @@ pub(super) fn primitive(table: &Table<'_>, shape: &str) -> Result<Option<Surface
                 let message = "must be at least 2 pairs of distance ≥ 0 from the axis and height";
                 return Err(table.error("profile", message));
             }
-            if rows.windows(2).any(|pair| pair[0] == pair[1] || pair[0][0].max(pair[1][0]) == 0.0) {
+            if rows
+                .windows(2)
+                .any(|pair| pair[0] == pair[1] || pair[0][0].max(pair[1][0]) == 0.0)
+            {
                 return Err(table.error("profile", "has a side without area"));
             }
-            Surface::Lathe { profile: rows.into_iter().map(DVec2::from).collect(), cells, segments }
+            Surface::Lathe {
+                profile: rows.into_iter().map(DVec2::from).collect(),
+                cells,
+                segments,
+            }
         }
         "cylinder" | "cone" => {
-            let top = if shape == "cone" { vec![(0.0, 1.0)] } else { vec![(1.0, 1.0), (0.0, 1.0)] };
-            let profile = [(0.0, -1.0), (1.0, -1.0)].into_iter().chain(top).map(DVec2::from).collect();
-            Surface::Lathe { profile, cells: cells()?.unwrap_or(1), segments: segments(32)? }
+            let top = if shape == "cone" {
+                vec![(0.0, 1.0)]
+            } else {
+                vec![(1.0, 1.0), (0.0, 1.0)]
+            };
+            let profile = [(0.0, -1.0), (1.0, -1.0)]
+                .into_iter()
+                .chain(top)
+                .map(DVec2::from)
+                .collect();
+            Surface::Lathe {
+                profile,
+                cells: cells()?.unwrap_or(1),
+                segments: segments(32)?,
+            }
         }
-        "teapot" => Surface::Teapot { cells: table.count("n", 1..=128)?.unwrap_or(8) },
+        "teapot" => Surface::Teapot {
+            cells: table.count("n", 1..=128)?.unwrap_or(8),
+        },
         _ => return Ok(None),
     }))
 }
@@ -82,9 +134,21 @@ impl Surface {
             Self::Quad => shapes::grid(1),
             Self::Grid { cells } => shapes::grid(*cells),
             Self::Cuboid { cells } => shapes::cuboid(*cells),
-            Self::Sphere { center, radius, segments } => shapes::sphere(*center, *radius, *segments),
-            Self::Torus { radius, tube, segments } => shapes::torus(*radius, *tube, *segments),
-            Self::Lathe { profile, cells, segments } => shapes::lathe(profile, *cells, *segments),
+            Self::Sphere {
+                center,
+                radius,
+                segments,
+            } => shapes::sphere(*center, *radius, *segments),
+            Self::Torus {
+                radius,
+                tube,
+                segments,
+            } => shapes::torus(*radius, *tube, *segments),
+            Self::Lathe {
+                profile,
+                cells,
+                segments,
+            } => shapes::lathe(profile, *cells, *segments),
             Self::Teapot { cells } => shapes::teapot(*cells),
             Self::Mesh { file, mtl } => {
                 let path = find(table, file, origin)?;
@@ -110,11 +174,11 @@ impl Surface {
 fn find(table: &Table<'_>, model: &str, origin: &Origin<'_>) -> Result<PathBuf, SceneError> {
     let stem = Path::new(model).file_stem().unwrap_or_default();
     let models = origin.options.models.as_ref();
-    let candidates = origin
-        .folder
-        .iter()
-        .map(|folder| folder.join(model))
-        .chain(models.iter().flat_map(|folder| [folder.join(model), folder.join(stem).join(model)]));
+    let candidates = origin.folder.iter().map(|folder| folder.join(model)).chain(
+        models
+            .iter()
+            .flat_map(|folder| [folder.join(model), folder.join(stem).join(model)]),
+    );
     if let Some(path) = candidates.into_iter().find(|path| path.is_file()) {
         return Ok(path);
     }
@@ -136,7 +200,9 @@ fn find(table: &Table<'_>, model: &str, origin: &Origin<'_>) -> Result<PathBuf, 
 
 /// `transform = { scale, rotate_deg, translate }`.
 pub(super) fn transform(table: &Table<'_>) -> Result<Transform, SceneError> {
-    let Some(table) = table.table("transform")? else { return Ok(Transform::IDENTITY) };
+    let Some(table) = table.table("transform")? else {
+        return Ok(Transform::IDENTITY);
+    };
     let scale = table.scale("scale")?.unwrap_or(DVec3::ONE);
     let degrees = table.vector("rotate_deg")?.unwrap_or(DVec3::ZERO);
     let translate = table.vector("translate")?.unwrap_or(DVec3::ZERO);
@@ -144,5 +210,8 @@ pub(super) fn transform(table: &Table<'_>) -> Result<Transform, SceneError> {
     if scale.abs().min_element() < SMALLEST {
         return Err(table.error("scale", "must not be zero: the transform cannot be undone"));
     }
-    Ok(Transform { linear: rotation(degrees) * DMat3::from_diagonal(scale), translate })
+    Ok(Transform {
+        linear: rotation(degrees) * DMat3::from_diagonal(scale),
+        translate,
+    })
 }

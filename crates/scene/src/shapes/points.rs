@@ -27,7 +27,10 @@ pub(crate) fn inverse_points(
     let first_hit = |at: DVec2| -> Option<(SurfaceHit, DVec3)> {
         let dir = view.ray(at);
         let hits = mirrors.iter().enumerate().filter_map(|(index, mirror)| {
-            mirror.shape.intersect(view.eye, dir, 0.0).map(|hit| (index, hit))
+            mirror
+                .shape
+                .intersect(view.eye, dir, 0.0)
+                .map(|hit| (index, hit))
         });
         let (index, hit) = hits.min_by(|a, b| a.1.t.total_cmp(&b.1.t))?;
         (index == which && dir.dot(hit.normal) < 0.0).then_some((hit, dir))
@@ -44,7 +47,10 @@ pub(crate) fn inverse_points(
         }
     }
     if pixels.is_empty() {
-        return Err(format!("mirror \"{}\" covers no pixel", mirrors[which].name));
+        return Err(format!(
+            "mirror \"{}\" covers no pixel",
+            mirrors[which].name
+        ));
     }
 
     let mut random = Random::new(inverse.seed);
@@ -58,9 +64,13 @@ pub(crate) fn inverse_points(
         let pixel = pixels[random.below(pixels.len())];
         let at = pixel + DVec2::new(random.unit(), random.unit());
         let t = (least + (largest - least) * random.unit()).exp();
-        let Some((hit, dir)) = first_hit(at) else { continue };
+        let Some((hit, dir)) = first_hit(at) else {
+            continue;
+        };
         let reflected = (dir - 2.0 * dir.dot(hit.normal) * hit.normal).normalize();
-        let again = mirrors[which].shape.intersect(hit.position, reflected, 1e-9 * hit.t);
+        let again = mirrors[which]
+            .shape
+            .intersect(hit.position, reflected, 1e-9 * hit.t);
         if again.is_none_or(|again| again.t > t) {
             points.push(hit.position + t * reflected);
         }
@@ -87,14 +97,25 @@ mod tests {
     }
 
     fn mirror(shape: Shape) -> [Mirror; 1] {
-        [Mirror { name: "m".to_owned(), shape, tessellation: 128 }]
+        [Mirror {
+            name: "m".to_owned(),
+            shape,
+            tessellation: 128,
+        }]
     }
 
     #[test]
     fn the_same_seed_gives_the_same_points_at_the_distances_asked_for() {
-        let mirrors = mirror(Shape::Sphere { center: DVec3::ZERO, radius: 1.0 });
+        let mirrors = mirror(Shape::Sphere {
+            center: DVec3::ZERO,
+            radius: 1.0,
+        });
         let make = |seed| {
-            let inverse = Inverse { count: 200, seed, distance: [0.05, 8.0] };
+            let inverse = Inverse {
+                count: 200,
+                seed,
+                distance: [0.05, 8.0],
+            };
             inverse_points(&inverse, &camera(), &mirrors, 0).unwrap()
         };
         let points = make(1);
@@ -108,18 +129,36 @@ mod tests {
 
     #[test]
     fn in_a_bowl_points_lie_before_the_second_meeting() {
-        let shape =
-            Shape::Bowl { center: DVec3::ZERO, radius: 1.5, axis: DVec3::NEG_Z, half_angle: 1.4 };
-        let inverse = Inverse { count: 300, seed: 1, distance: [0.05, 8.0] };
+        let shape = Shape::Bowl {
+            center: DVec3::ZERO,
+            radius: 1.5,
+            axis: DVec3::NEG_Z,
+            half_angle: 1.4,
+        };
+        let inverse = Inverse {
+            count: 300,
+            seed: 1,
+            distance: [0.05, 8.0],
+        };
         let points = inverse_points(&inverse, &camera(), &mirror(shape), 0).unwrap();
         let rim = 1.5 * 1.4f64.cos();
-        assert!(points.iter().all(|p| p.length() < 1.5 || -p.z < rim), "none is behind the bowl");
+        assert!(
+            points.iter().all(|p| p.length() < 1.5 || -p.z < rim),
+            "none is behind the bowl"
+        );
     }
 
     #[test]
     fn a_mirror_out_of_view_has_no_points() {
-        let mirrors = mirror(Shape::Sphere { center: DVec3::Z * 9.0, radius: 1.0 });
-        let inverse = Inverse { count: 1, seed: 1, distance: [1.0, 2.0] };
+        let mirrors = mirror(Shape::Sphere {
+            center: DVec3::Z * 9.0,
+            radius: 1.0,
+        });
+        let inverse = Inverse {
+            count: 1,
+            seed: 1,
+            distance: [1.0, 2.0],
+        };
         assert!(inverse_points(&inverse, &camera(), &mirrors, 0).is_err());
     }
 }

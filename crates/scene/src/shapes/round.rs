@@ -11,12 +11,19 @@ pub(crate) fn sphere(center: DVec3, radius: f64, segments: u32) -> Geometry {
     let rings = (segments / 2).max(2);
     let profile = (0..=rings).map(|ring| {
         let angle = PI * f64::from(ring) / f64::from(rings);
-        let sin = if ring == 0 || ring == rings { 0.0 } else { angle.sin() };
+        let sin = if ring == 0 || ring == rings {
+            0.0
+        } else {
+            angle.sin()
+        };
         let normal = DVec2::new(sin, -angle.cos());
         (radius * normal, normal)
     });
     let mut geometry = revolve(&profile.collect::<Vec<_>>(), segments);
-    geometry.positions.iter_mut().for_each(|position| *position += center);
+    geometry
+        .positions
+        .iter_mut()
+        .for_each(|position| *position += center);
     geometry
 }
 
@@ -44,7 +51,11 @@ pub(crate) fn lathe(profile: &[DVec2], cells: u32, segments: u32) -> Geometry {
         let part = revolve(&steps, segments);
         let start = all.positions.len() as u32;
         all.positions.extend(part.positions);
-        all.triangles.extend(part.triangles.iter().map(|corners| corners.map(|i| i + start)));
+        all.triangles.extend(
+            part.triangles
+                .iter()
+                .map(|corners| corners.map(|i| i + start)),
+        );
         all.normals.extend(part.normals);
         all.uvs.extend(part.uvs);
     }

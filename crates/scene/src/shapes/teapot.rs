@@ -18,7 +18,12 @@ pub(crate) fn teapot(cells: u32) -> Geometry {
         }
     }
     for patch in &HALVES {
-        tessellate(&mut geometry, &control(patch, DMat3::IDENTITY), cells, false);
+        tessellate(
+            &mut geometry,
+            &control(patch, DMat3::IDENTITY),
+            cells,
+            false,
+        );
         tessellate(&mut geometry, &control(patch, mirror), cells, true);
     }
     geometry
@@ -83,7 +88,11 @@ fn evaluate(control: &Control, v: f64, u: f64) -> (DVec3, DVec3) {
 
 fn combine(control: &Control, rows: [f64; 4], columns: [f64; 4]) -> DVec3 {
     let along = |row: &[DVec3; 4]| -> DVec3 { row.iter().zip(columns).map(|(p, w)| *p * w).sum() };
-    control.iter().zip(rows).map(|(row, weight)| along(row) * weight).sum()
+    control
+        .iter()
+        .zip(rows)
+        .map(|(row, weight)| along(row) * weight)
+        .sum()
 }
 
 fn bernstein(t: f64) -> [f64; 4] {
@@ -93,7 +102,12 @@ fn bernstein(t: f64) -> [f64; 4] {
 
 fn bernstein_slope(t: f64) -> [f64; 4] {
     let s = 1.0 - t;
-    [-3.0 * s * s, 3.0 * s * (s - 2.0 * t), 3.0 * t * (2.0 * s - t), 3.0 * t * t]
+    [
+        -3.0 * s * s,
+        3.0 * s * (s - 2.0 * t),
+        3.0 * t * (2.0 * s - t),
+        3.0 * t * t,
+    ]
 }
 
 #[cfg(test)]
@@ -108,7 +122,10 @@ mod tests {
         assert_eq!((mesh.positions.len(), mesh.triangles.len()), (8257, 16256));
         let (low, high) = mesh.bounds().unwrap();
         assert!(low.distance(glam::vec3(-3.0, 0.0, -2.0)) < 1e-6, "{low}");
-        assert!(high.distance(glam::vec3(3.433_514, 3.15, 2.0)) < 1e-5, "{high}");
+        assert!(
+            high.distance(glam::vec3(3.433_514, 3.15, 2.0)) < 1e-5,
+            "{high}"
+        );
     }
 
     #[test]
@@ -121,10 +138,17 @@ mod tests {
                 assert!(face.dot(*normal) > 0.8, "{a} {face} {normal}");
             }
         }
-        let bottom = mesh.positions.iter().position(|p| p.length() < 1e-6).unwrap() as u32;
+        let bottom = mesh
+            .positions
+            .iter()
+            .position(|p| p.length() < 1e-6)
+            .unwrap() as u32;
         for (corners, normals) in mesh.triangles.iter().zip(&mesh.normals) {
             for (corner, normal) in corners.iter().zip(normals) {
-                assert!(*corner != bottom || normal.y < -0.999, "the bottom faces down: {normal}");
+                assert!(
+                    *corner != bottom || normal.y < -0.999,
+                    "the bottom faces down: {normal}"
+                );
             }
         }
     }

@@ -1,0 +1,268 @@
+//! Buffer structs, laid out by encase as the shaders read them.
+
+use catoptric_scene::{Background, Mesh, Paint, Scene, Shape, View};
+use encase::ShaderType;
+use glam::{DVec2, DVec3, UVec2, Vec2, Vec3};
+
+/// Twin of `shared/view.wesl`.
+#[derive(Clone, Copy, Debug, ShaderType)]
+pub(crate) struct ViewUniform {
+    pub eye: Vec3,
+    pub near: f32,
+    pub right: Vec3,
+    pub tan_x: f32,
+    pub up: Vec3,
+    pub tan_y: f32,
+    pub forward: Vec3,
+    pub depth_range: f32,
+    pub size: UVec2,
+    pub background_kind: u32,
+    pub under: u32,
+    pub zenith: Vec3,
+    pub horizon: Vec3,
+    pub nadir: Vec3,
+}
+
+/// Distance along the optical axis before which nothing is drawn, world units.
+const NEAR: f32 = 1e-3;
+
+impl ViewUniform {
+    pub(crate) fn new(scene: &Scene, view: &View, dark: bool) -> Self {
+        let (background_kind, zenith, horizon, nadir) = match scene.background {
+            Background::Color(color) => (0, color, color, color),
+            Background::Gradient {
+                zenith,
+                horizon,
+                nadir,
+            } => (1, zenith, horizon, nadir),
+        };
+        Self {
+            eye: view.eye.as_vec3(),
+            near: NEAR,
+            right: view.right.as_vec3(),
+            tan_x: view.tan.x as f32,
+            up: view.up.as_vec3(),
+            tan_y: view.tan.y as f32,
+            forward: view.forward.as_vec3(),
+            depth_range: depth_range(scene),
+            size: UVec2::from_array(view.size),
+            background_kind,
+            under: u32::from(dark),
+            zenith,
+            horizon,
+            nadir,
+        }
+    }
+}
+
+/// No vertex is farther from a mirror point: the diagonal of the box around everything.
+fn depth_range(scene: &Scene) -> f32 {
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for mirror in &scene.mirrors {
+        let (a, b) = mirror.shape.bounds();
+        low = low.min(a);
+        high = high.max(b);
+    }
+    for position in scene
+        .objects
+        .iter()
+        .flat_map(|object| &object.mesh.positions)
+    {
+        low = low.min(position.as_dvec3());
+        high = high.max(position.as_dvec3());
+    }
+    if low.cmple(high).all() {
+        ((high - low).length() * 1.01).max(1e-6) as f32
+    } else {
+        1.0
+    }
+}
+
+/// Twin of `shared/mirror.wesl`.
+#[derive(Clone, Copy, Debug, ShaderType)]
+pub(crate) struct MirrorUniform {
+    pub center: Vec3,
+    pub shape: u32,
+    pub eye: Vec3,
+    pub id: u32,
+    pub axis_x: Vec3,
+    pub cos_half_angle: f32,
+    pub axis_y: Vec3,
+    pub start_x: f32,
+    pub axis_z: Vec3,
+    pub start_y: f32,
+    pub radii: Vec3,
+    pub pad: u32,
+}
+
+impl MirrorUniform {
+    pub(crate) fn new(shape: &Shape, id: u32, view: &View, start: DVec2) -> Self {
+        let mut axes = [DVec3::X, DVec3::Y, DVec3::Z];
+        let (kind, radii, cos_half_angle) = match shape {
+            Shape::Sphere { radius, .. } => (0, DVec3::splat(*radius), 0.0),
+            Shape::Ellipsoid {
+                radii, rotation, ..
+            } => {
+                axes = [rotation.x_axis, rotation.y_axis, rotation.z_axis];
+                (0, *radii, 0.0)
+            }
+            Shape::Bowl {
+                radius,
+                axis,
+                half_angle,
+                ..
+            } => {
+                let x = axis.any_orthonormal_vector();
+                axes = [x, axis.cross(x), *axis];
+                (1, DVec3::splat(*radius), half_angle.cos())
+            }
+            Shape::Plane {
+                normal, up, size, ..
+            } => {
+                axes = [up.cross(*normal), *up, *normal];
+                (2, DVec3::new(size.x / 2.0, size.y / 2.0, 1.0), 0.0)
+            }
+            Shape::Mesh(_) => (0, DVec3::ONE, 0.0),
+        };
+        let center = shape.center();
+        Self {
+            center: center.as_vec3(),
+            shape: kind,
+            eye: (view.eye - center).as_vec3(),
+            id,
+            axis_x: axes[0].as_vec3(),
+            cos_half_angle: cos_half_angle as f32,
+            axis_y: axes[1].as_vec3(),
+            start_x: start.x as f32,
+            axis_z: axes[2].as_vec3(),
+            start_y: start.y as f32,
+            radii: radii.as_vec3(),
+            pad: 0,
+        }
+    }
+}
+
+/// Twin of `Settings` in `linear.wesl` and `virtual.wesl`.
+#[derive(Clone, Copy, Debug, ShaderType)]
+pub(crate) struct SearchSettings {
+    pub vertices: u32,
+    pub first_found: u32,
+    pub warm: u32,
+    pub max_steps: u32,
+}
+
+/// Twin of `Corner` in `shared/surface.wesl`.
+#[derive(Clone, Copy, Debug, ShaderType)]
+pub(crate) struct Corner {
+    pub uv: Vec2,
+    pub vertex: u32,
+    pub material: u32,
+    pub color: Vec3,
+    pub object: u32,
+}
+
+/// Twin of `Material` in `shared/surface.wesl`.
+#[derive(Clone, Copy, Debug, ShaderType)]
+pub(crate) struct MaterialUniform {
+    pub a: Vec3,
+    pub kind: u32,
+    pub b: Vec3,
+    pub cells: u32,
+    pub first_texel: u32,
+    pub width: u32,
+    pub height: u32,
+    pub pad: u32,
+}
+
+/// Twin of `shared/found.wesl`.
+#[derive(Clone, Copy, Debug, ShaderType)]
+pub(crate) struct Found {
+    pub position: Vec3,
+    pub state: u32,
+    pub at: Vec2,
+    pub distance: f32,
+    pub pad: u32,
+}
+
+/// All object geometry of a scene, flattened.
+#[derive(Debug, Default)]
+pub(crate) struct Geometry {
+    pub positions: Vec<[f32; 4]>,
+    pub corners: Vec<Corner>,
+    pub materials: Vec<MaterialUniform>,
+    pub texels: Vec<[f32; 4]>,
+}
+
+impl Geometry {
+    pub(crate) fn new(scene: &Scene) -> Self {
+        let mut geometry = Self::default();
+        for (index, object) in scene.objects.iter().enumerate() {
+            geometry.add(&object.mesh, scene.object_id(index));
+        }
+        geometry
+    }
+
+    fn add(&mut self, mesh: &Mesh, object: u32) {
+        let first_vertex = self.positions.len() as u32;
+        let first_material = self.materials.len() as u32;
+        self.positions
+            .extend(mesh.positions.iter().map(|p| [p.x, p.y, p.z, 1.0]));
+        for material in &mesh.materials {
+            self.add_material(&material.paint);
+        }
+        for (index, triangle) in mesh.triangles.iter().enumerate() {
+            for (corner, vertex) in triangle.iter().enumerate() {
+                self.corners.push(Corner {
+                    uv: mesh.uvs.get(index).map_or(Vec2::ZERO, |uvs| uvs[corner]),
+                    vertex: first_vertex + vertex,
+                    material: first_material + mesh.material[index],
+                    color: mesh
+                        .colors
+                        .get(index)
+                        .map_or(Vec3::ZERO, |colors| colors[corner]),
+                    object,
+                });
+            }
+        }
+    }
+
+    fn add_material(&mut self, paint: &Paint) {
+        let mut material = MaterialUniform {
+            a: Vec3::ZERO,
+            kind: 0,
+            b: Vec3::ZERO,
+            cells: 0,
+            first_texel: 0,
+            width: 0,
+            height: 0,
+            pad: 0,
+        };
+        match paint {
+            Paint::Color(color) => material.a = *color,
+            Paint::Checker { a, b, cells } => {
+                material = MaterialUniform {
+                    a: *a,
+                    kind: 1,
+                    b: *b,
+                    cells: *cells,
+                    ..material
+                };
+            }
+            Paint::Texture { tint, image } => {
+                let first_texel = self.texels.len() as u32;
+                self.texels
+                    .extend(image.texels.iter().map(|t| [t.x, t.y, t.z, 1.0]));
+                material = MaterialUniform {
+                    a: *tint,
+                    kind: 2,
+                    first_texel,
+                    width: image.width,
+                    height: image.height,
+                    ..material
+                };
+            }
+            Paint::Vertex => material.kind = 3,
+        }
+        self.materials.push(material);
+    }
+}

@@ -1,6 +1,6 @@
 //! `catoptric`: how exact, how fast and how steady is a real-time reflection on a curved mirror?
 //!
-//! The program reads as one sentence, [`measure`]: load a scene, trace its reference, render it by
+//! The program reads as one sentence, [`measure()`]: load a scene, trace its reference, render it by
 //! every technique, compare, time, record. `compare` prints the records, `report` makes a page of
 //! them, the other commands are single words of the sentence.
 

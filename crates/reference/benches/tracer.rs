@@ -69,6 +69,7 @@ fn balls() -> Scene {
             shape,
             tessellation: 64,
         }],
+        motion: None,
         hash: String::new(),
     }
 }

@@ -377,25 +377,31 @@ impl<'d> Table<'d> {
 
     /// An array of tables, each called by its name or its number.
     pub(crate) fn tables(&self, key: &'static str) -> Result<Vec<Table<'d>>, SceneError> {
+        let prefix = match self.owner.as_str() {
+            "" => String::new(),
+            owner => format!("{owner}."),
+        };
+        let wanted = format!("written as [[{prefix}{key}]]");
         let elements = match self.get(key).map(Spanned::get_ref) {
             None => return Ok(Vec::new()),
             Some(DeValue::Array(elements)) => elements,
-            Some(other) => {
-                return Err(self.wrong_type(key, other, format_args!("written as [[{key}]]")));
-            }
+            Some(other) => return Err(self.wrong_type(key, other, wanted)),
         };
         elements
             .iter()
             .zip(1..)
             .map(|(element, number)| match element.get_ref() {
                 DeValue::Table(values) => {
-                    let owner = match values.get("name").map(Spanned::get_ref) {
+                    let mut owner = match values.get("name").map(Spanned::get_ref) {
                         Some(DeValue::String(name)) => format!("{key} \"{name}\""),
                         _ => format!("{key} {number}"),
                     };
+                    if !self.owner.is_empty() {
+                        owner = format!("{}: {owner}", self.owner);
+                    }
                     Ok(Table::new(self.source, owner, element.span().start, values))
                 }
-                other => Err(self.wrong_type(key, other, format_args!("written as [[{key}]]"))),
+                other => Err(self.wrong_type(key, other, &wanted)),
             })
             .collect()
     }

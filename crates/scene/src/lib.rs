@@ -4,6 +4,23 @@
 //! positions merged, names and ids settled. It renders nothing; both renderers (the reference and
 //! the GPU techniques) read it and share nothing else.
 //!
+//! A scene may move ([`Motion`]): [`Scene::at`] gives it as it stands at a frame. Whoever shows a
+//! single picture shows the scene as it is, which is frame 0. In a scene file:
+//!
+//! ```toml
+//! [motion]
+//! frames = 40                            # 2 or more; the first shows the scene as written
+//! camera = { orbit_deg = 30.0 }          # by the last frame: the eye around the target, about `up`
+//! # or, evenly spaced in time after where [camera] has them, along a spline:
+//! # camera = { eye = [[1.0, 0.5, 4.0], [2.0, 0.5, 3.0]], target = [[0.0, 0.2, 0.0]] }
+//!
+//! [[motion.move]]                        # any number, each for another object or mirror
+//! name = "ring"
+//! rotate_deg = [0.0, 180.0, 0.0]         # by the last frame, evenly; x, then y, then z
+//! about = [1.0, 0.0, 0.5]                # default: middle of its box, of a mirror its centre
+//! translate = [0.0, 0.0, 1.0]            # by the last frame, evenly
+//! ```
+//!
 //! Spaces and units: right-handed, +y up, metres if anything; angles in degrees in files and in
 //! radians in code unless a name says `_deg`; colours linear RGB.
 
@@ -17,6 +34,7 @@ mod hash;
 mod load;
 pub mod mesh;
 pub mod mirror;
+pub mod motion;
 mod mtl;
 mod obj;
 mod random;
@@ -29,6 +47,7 @@ pub use error::SceneError;
 pub use load::{LoadOptions, open};
 pub use mesh::{Material, Mesh, Paint, Texture};
 pub use mirror::{Mirror, Shape, SurfaceHit};
+pub use motion::{CameraPath, Motion, Move, Subject};
 
 use glam::Vec3;
 
@@ -47,7 +66,10 @@ pub struct Scene {
     pub objects: Vec<Object>,
     /// The mirrors, in file order; mirror `i` has id `1 + objects.len() + i`.
     pub mirrors: Vec<Mirror>,
-    /// SHA-256 (hex) of all that influences a picture: geometry, colours, camera.
+    /// How all this changes over a sequence of frames, of which it is the first.
+    pub motion: Option<Motion>,
+    /// SHA-256 (hex) of all that influences the picture: geometry, colours, camera. Motion does
+    /// not: each frame that [`Scene::at`] gives has a hash of its own.
     pub hash: String,
 }
 

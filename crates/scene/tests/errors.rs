@@ -341,8 +341,8 @@ fn messages_name_file_line_and_key() {
         (
             "[[mirror]]",
             "[motion]\norbit = 1\n[[mirror]]",
-            14,
-            &["`motion`", "not yet supported"],
+            15,
+            &["motion: unknown key `orbit`"],
         ),
         ("[camera]", "[camera", 2, &[]),
         (
@@ -396,6 +396,85 @@ fn points_need_what_they_are_made_from() {
             message.contains(&format!("bad.toml:{line}: ")),
             "{keys}\n→ {message}"
         );
+        assert!(message.contains(part), "{keys}\n→ {message}");
+    }
+}
+
+#[test]
+fn motion_knows_what_it_moves() {
+    let folder = tempfile::tempdir().unwrap();
+    let moving = |keys: &str| message(folder.path(), &format!("{GOOD}[motion]\n{keys}\n"));
+    assert_eq!(moving("frames = 2\ncamera = { orbit_deg = 3 }"), None);
+    let step = "[[motion.move]]\nname = \"floor\"\n";
+    for (keys, line, part) in [
+        ("camera = { orbit_deg = 3 }", 19, "`frames` is missing"),
+        (
+            "frames = 1\ncamera = { orbit_deg = 3 }",
+            20,
+            "`frames` must be from 2",
+        ),
+        ("frames = 4", 19, "needs `camera` or [[motion.move]]"),
+        ("frames = 4\ncamera = {}", 21, "camera: needs `orbit_deg`"),
+        (
+            "frames = 4\ncamera = { eye = [1, 2, 3] }",
+            21,
+            "`eye` must be an array",
+        ),
+        (
+            "frames = 4\ncamera = { orbit_deg = 1, target = [[1, 2, 3]] }",
+            21,
+            "`orbit_deg` and `target` exclude each other",
+        ),
+        (
+            "frames = 5\ncamera = { eye = [[0.5, 0, -5]] }",
+            21,
+            "at frame 2 the eye lies inside mirror \"ball\"",
+        ),
+        (
+            "frames = 3\ncamera = { eye = [[0, 0, -5]] }",
+            21,
+            "at frame 1 the eye is at the target",
+        ),
+        (
+            "frames = 2\ncamera = { eye = [[0, 5, 0]] }",
+            21,
+            "at frame 1 the viewing direction is parallel",
+        ),
+        (
+            "frames = 4\n[motion.move]",
+            21,
+            "written as [[motion.move]]",
+        ),
+        (
+            "frames = 4\n[[motion.move]]",
+            21,
+            "motion: move 1: key `name`",
+        ),
+        (
+            "frames = 4\n[[motion.move]]\nname = \"flor\"",
+            22,
+            "move \"flor\": `name` `flor` is no object and no mirror (did you mean `floor`?)",
+        ),
+        (&format!("frames = 4\n{step}"), 21, "needs `translate` or"),
+        (
+            &format!("frames = 4\n{step}translate = [1, 0, 0]\nabout = [1, 2, 3]"),
+            24,
+            "`about` needs `rotate_deg`",
+        ),
+        (
+            &format!("frames = 4\n{step}translate = [1, 0, 0]\n{step}translate = [1, 0, 0]"),
+            25,
+            "`name` is moved twice",
+        ),
+        (
+            "frames = 3\n[[motion.move]]\nname = \"ball\"\ntranslate = [0, 0, 10]",
+            19,
+            "at frame 1 the eye lies inside",
+        ),
+    ] {
+        let message = moving(keys).unwrap_or_else(|| panic!("accepted: {keys}"));
+        let place = format!("bad.toml:{line}: motion");
+        assert!(message.contains(&place), "{keys}\n→ {message}");
         assert!(message.contains(part), "{keys}\n→ {message}");
     }
 }

@@ -71,6 +71,7 @@ pub fn scene(camera: Camera, objects: Vec<Object>, mirrors: Vec<Shape>) -> Scene
         background: Background::Color(Vec3::new(0.1, 0.2, 0.3)),
         objects,
         mirrors: mirrors.into_iter().enumerate().map(mirror).collect(),
+        motion: None,
         hash: String::new(),
     }
 }

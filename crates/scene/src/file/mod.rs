@@ -2,6 +2,7 @@
 
 mod camera;
 mod mirror;
+mod motion;
 mod object;
 mod surface;
 
@@ -34,9 +35,7 @@ pub(crate) fn read(text: &str, origin: &Origin<'_>) -> Result<Scene, SceneError>
     let background = root.table("background")?;
     let object_tables = root.tables("object")?;
     let mirror_tables = root.tables("mirror")?;
-    if root.has("motion") {
-        return Err(root.error("motion", "is not yet supported"));
-    }
+    let motion_table = root.table("motion")?;
     root.finish()?;
     let why = root.required("why", why)?;
     if why.trim().is_empty() {
@@ -71,6 +70,9 @@ pub(crate) fn read(text: &str, origin: &Origin<'_>) -> Result<Scene, SceneError>
         unique(table, &mut names, &mirror.name)?;
     }
 
+    let motion = motion_table
+        .map(|table| motion::motion(&table, &camera, &objects, &mirrors))
+        .transpose()?;
     let hash = hash(&camera, &background, &objects, &mirrors);
     Ok(Scene {
         name: origin.name.to_owned(),
@@ -79,6 +81,7 @@ pub(crate) fn read(text: &str, origin: &Origin<'_>) -> Result<Scene, SceneError>
         background,
         objects,
         mirrors,
+        motion,
         hash,
     })
 }

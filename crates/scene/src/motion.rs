@@ -1,0 +1,263 @@
+//! Motion: where camera, objects and mirrors are from frame to frame.
+//!
+//! Time runs evenly from 0 at the first frame, which is the scene as written, to 1 at the last.
+//! Everything that moves does so rigidly, and a moved mesh keeps its vertices in their order, so
+//! that a vertex is the same one in all frames.
+
+use glam::{DMat3, DVec3, Vec3};
+
+use crate::geometry::rotation;
+use crate::hash::hash;
+use crate::{Camera, Mesh, Mirror, Object, Scene, Shape};
+
+/// How a scene changes over its frames.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Motion {
+    /// Frames of the whole sequence, at least 2.
+    pub frames: u32,
+    /// Where the camera goes.
+    pub camera: CameraPath,
+    /// What else moves: at most one entry for each object and mirror.
+    pub moves: Vec<Move>,
+}
+
+/// Where the camera goes.
+#[derive(Clone, Debug, PartialEq)]
+pub enum CameraPath {
+    /// Nowhere.
+    Still,
+    /// The eye turns around the axis through the target along the camera's `up`.
+    Orbit {
+        /// Angle by the last frame in radians, counter-clockwise seen from above.
+        angle: f64,
+    },
+    /// Eye and target run through points that are evenly spaced in time, the first being where
+    /// the camera starts: along a straight line if there are two, else along a Catmull–Rom spline.
+    Keys {
+        /// Eye positions, never empty.
+        eye: Vec<DVec3>,
+        /// Target positions, never empty.
+        target: Vec<DVec3>,
+    },
+}
+
+/// A rigid motion of one object or mirror.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Move {
+    /// What moves.
+    pub subject: Subject,
+    /// Angles in degrees of the rotation Rz·Ry·Rx by the last frame; each grows evenly.
+    pub rotate_deg: DVec3,
+    /// World-space point around which it rotates.
+    pub about: DVec3,
+    /// Way by the last frame, along a straight line at an even pace, after the rotation.
+    pub translate: DVec3,
+}
+
+/// What a [`Move`] moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Subject {
+    /// Index into [`Scene::objects`].
+    Object(usize),
+    /// Index into [`Scene::mirrors`].
+    Mirror(usize),
+}
+
+impl Scene {
+    /// Number of frames; 1 where nothing moves.
+    pub fn frames(&self) -> u32 {
+        self.motion.as_ref().map_or(1, |motion| motion.frames)
+    }
+
+    /// The scene as it stands at a frame, with nothing moving any more and the hash of what it
+    /// shows. Frame 0 is the scene as written; past the last frame everything stays where it is.
+    pub fn at(&self, frame: u32) -> Self {
+        let mut posed = Self {
+            motion: None,
+            ..self.clone()
+        };
+        let Some(motion) = &self.motion else {
+            return posed;
+        };
+        let time = motion.time(frame);
+        if time == 0.0 {
+            return posed;
+        }
+        posed.camera = motion.camera_at(&self.camera, time);
+        for step in &motion.moves {
+            let pose = step.pose(time);
+            match step.subject {
+                Subject::Object(index) => pose.object(&mut posed.objects[index]),
+                Subject::Mirror(index) => pose.mirror(&mut posed.mirrors[index]),
+            }
+        }
+        posed.hash = hash(
+            &posed.camera,
+            &posed.background,
+            &posed.objects,
+            &posed.mirrors,
+        );
+        posed
+    }
+}
+
+impl Motion {
+    /// Time in [0, 1] of a frame.
+    pub fn time(&self, frame: u32) -> f64 {
+        let last = self.frames.max(2) - 1;
+        f64::from(frame.min(last)) / f64::from(last)
+    }
+
+    /// The camera at a time, from where it starts.
+    pub fn camera_at(&self, start: &Camera, time: f64) -> Camera {
+        let mut camera = start.clone();
+        match &self.camera {
+            CameraPath::Still => {}
+            CameraPath::Orbit { angle } => {
+                let turn = DMat3::from_axis_angle(start.up.normalize(), angle * time);
+                camera.eye = start.target + turn * (start.eye - start.target);
+            }
+            CameraPath::Keys { eye, target } => {
+                camera.eye = spline(eye, time);
+                camera.target = spline(target, time);
+            }
+        }
+        camera
+    }
+
+    /// A mirror's pose at a time.
+    pub(crate) fn mirror_pose(&self, index: usize, time: f64) -> Pose {
+        self.moves
+            .iter()
+            .find(|step| step.subject == Subject::Mirror(index))
+            .map_or(Pose::REST, |step| step.pose(time))
+    }
+}
+
+impl Move {
+    fn pose(&self, time: f64) -> Pose {
+        let turn = rotation(self.rotate_deg * time);
+        Pose {
+            turn,
+            offset: self.about - turn * self.about + self.translate * time,
+        }
+    }
+}
+
+/// A point of the Catmull–Rom spline through evenly spaced points, which goes on straight beyond
+/// both ends; `time` in [0, 1].
+fn spline(points: &[DVec3], time: f64) -> DVec3 {
+    let [first, .., last] = points else {
+        return points[0];
+    };
+    let pieces = points.len() - 1;
+    let place = time * pieces as f64;
+    let piece = (place as usize).min(pieces - 1);
+    let share = place - piece as f64;
+    let (from, to) = (points[piece], points[piece + 1]);
+    let before = match piece {
+        0 => 2.0 * first - to,
+        _ => points[piece - 1],
+    };
+    let after = match points.get(piece + 2) {
+        Some(after) => *after,
+        None => 2.0 * last - from,
+    };
+    let (leaving, arriving) = ((to - before) / 2.0, (after - from) / 2.0);
+    from.lerp(to, share)
+        + share
+            * (1.0 - share)
+            * ((1.0 - share) * (leaving - (to - from)) - share * (arriving - (to - from)))
+}
+
+/// A rigid motion `p → turn · p + offset`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pose {
+    turn: DMat3,
+    offset: DVec3,
+}
+
+impl Pose {
+    const REST: Self = Self {
+        turn: DMat3::IDENTITY,
+        offset: DVec3::ZERO,
+    };
+
+    fn point(&self, point: DVec3) -> DVec3 {
+        self.turn * point + self.offset
+    }
+
+    /// Where a point was that the motion has brought here.
+    pub(crate) fn undone(&self, point: DVec3) -> DVec3 {
+        self.turn.transpose() * (point - self.offset)
+    }
+
+    fn object(&self, object: &mut Object) {
+        self.mesh(&mut object.mesh);
+    }
+
+    fn mesh(&self, mesh: &mut Mesh) {
+        for position in &mut mesh.positions {
+            // Adding zero turns −0 into +0, as it is done for meshes at rest.
+            *position = self.point(position.as_dvec3()).as_vec3() + Vec3::ZERO;
+        }
+        for normal in mesh.normals.as_flattened_mut() {
+            *normal = (self.turn * normal.as_dvec3())
+                .normalize_or_zero()
+                .as_vec3();
+        }
+    }
+
+    fn mirror(&self, mirror: &mut Mirror) {
+        match &mut mirror.shape {
+            Shape::Sphere { center, .. } => *center = self.point(*center),
+            Shape::Ellipsoid {
+                center, rotation, ..
+            } => {
+                *center = self.point(*center);
+                *rotation = self.turn * *rotation;
+            }
+            Shape::Plane {
+                center, normal, up, ..
+            } => {
+                *center = self.point(*center);
+                *normal = self.turn * *normal;
+                *up = self.turn * *up;
+            }
+            Shape::Bowl { center, axis, .. } => {
+                *center = self.point(*center);
+                *axis = self.turn * *axis;
+            }
+            Shape::Mesh(mesh) => self.mesh(mesh),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_spline_meets_its_points_and_is_straight_between_two() {
+        let points = [
+            DVec3::ZERO,
+            DVec3::new(1.0, 2.0, 0.0),
+            DVec3::new(4.0, 0.0, 1.0),
+            DVec3::new(4.0, 1.0, 5.0),
+        ];
+        for (index, point) in points.iter().enumerate() {
+            assert!(spline(&points, index as f64 / 3.0).distance(*point) < 1e-12);
+        }
+        for time in [0.0, 0.1, 0.5, 0.9, 1.0] {
+            let expected = points[0].lerp(points[1], time);
+            assert!(spline(&points[..2], time).distance(expected) < 1e-15);
+        }
+        // The same velocity on both sides of a point: half the way between its neighbours.
+        let step = 1e-6;
+        let at = |time: f64| spline(&points, time);
+        let before = (at(1.0 / 3.0) - at(1.0 / 3.0 - step)) / step;
+        let after = (at(1.0 / 3.0 + step) - at(1.0 / 3.0)) / step;
+        assert!(before.distance(after) < 1e-3, "{before} {after}");
+        assert!(after.distance(1.5 * points[2]) < 1e-3, "{after}");
+    }
+}

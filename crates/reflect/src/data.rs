@@ -284,3 +284,115 @@ impl Geometry {
         self.materials.push(material);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use encase::ShaderSize;
+
+    use super::*;
+    use crate::shaders::tests::parsed;
+
+    /// Names, offsets and size of a struct as a linked shader has it.
+    fn shader_layout(program: &str, features: &[&str], name: &str) -> (Vec<(String, u64)>, u64) {
+        let module = parsed(program, features);
+        let is_it = |ty: &naga::Type| {
+            let full = ty.name.as_deref().unwrap_or_default();
+            full == name || full.ends_with(&format!("_{name}"))
+        };
+        let found = module.types.iter().find(|(_, ty)| is_it(ty));
+        let (_, ty) = found.unwrap_or_else(|| panic!("{program} has no struct {name}"));
+        let naga::TypeInner::Struct { members, span } = &ty.inner else {
+            panic!("{name} is no struct")
+        };
+        let member = |member: &naga::StructMember| {
+            let name = member.name.clone().unwrap_or_default();
+            (name, u64::from(member.offset))
+        };
+        (members.iter().map(member).collect(), u64::from(*span))
+    }
+
+    /// Checks a buffer struct against a shader, member by member.
+    macro_rules! check {
+        ($ty:ident, $program:literal, $features:expr, $name:literal, [$($field:ident),*]) => {{
+            let _every_field = |value: $ty| { let $ty { $($field: _),* } = value; };
+            let names = [$(stringify!($field)),*];
+            let members: Vec<_> = (names.iter().enumerate())
+                .map(|(index, name)| (name.to_string(), <$ty as ShaderType>::METADATA.offset(index)))
+                .collect();
+            let expected = shader_layout($program, $features, $name);
+            assert_eq!((members, $ty::SHADER_SIZE.get()), expected, "{}", $name);
+        }};
+    }
+
+    #[test]
+    fn buffer_structs_lie_as_the_shaders_read_them() {
+        check!(
+            ViewUniform,
+            "composite",
+            &[],
+            "View",
+            [
+                eye,
+                near,
+                right,
+                tan_x,
+                up,
+                tan_y,
+                forward,
+                depth_range,
+                size,
+                background_kind,
+                under,
+                zenith,
+                horizon,
+                nadir
+            ]
+        );
+        check!(
+            MirrorUniform,
+            "gbuffer",
+            &[],
+            "Mirror",
+            [
+                center,
+                shape,
+                eye,
+                id,
+                axis_x,
+                cos_half_angle,
+                axis_y,
+                axis_z,
+                radii
+            ]
+        );
+        check!(
+            Corner,
+            "primary",
+            &[],
+            "Corner",
+            [uv, vertex, material, color, object]
+        );
+        check!(
+            MaterialUniform,
+            "primary",
+            &[],
+            "Material",
+            [a, kind, b, cells, first_texel, width, height]
+        );
+        check!(Range, "linear", &[], "Range", [first, count, warm]);
+        check!(
+            Found,
+            "linear",
+            &[],
+            "Found",
+            [position, state, at, distance]
+        );
+        check!(
+            Effort,
+            "linear",
+            &["count"],
+            "Effort",
+            [steps, evaluations, node_tests, flags]
+        );
+    }
+}

@@ -29,7 +29,11 @@ pub mod shaders;
 pub mod spec;
 mod stage;
 mod technique;
+#[cfg(test)]
+mod testing;
 pub mod timing;
+#[cfg(test)]
+mod twin;
 mod world;
 
 pub use gpu::{AdapterInfo, Gpu, GpuError, Prefer, adapters};

@@ -1,78 +1,25 @@
-//! Benchmarks of the reference: hierarchy, rays, exact reflection points.
+//! Benchmarks of the reference: hierarchy, rays, pictures, exact reflection points.
 //!
-//! About 100 000 triangles in 25 balls around a mirror ball. Rays are those of a 256² picture;
-//! times are of all of them, `thrpt` is rays (or vertices, or triangles) a second.
+//! Two scenes: some 100 000 triangles in balls around a mirror ball, and, where the variable
+//! `CATOPTRIC_MODELS` names a folder that has it, the Sponza atrium. Rays are those of a 256²
+//! picture; times are of all of them, `thrpt` is rays (or pixels, vertices, triangles) a second.
+//! `cargo xtask embree` puts the speed of the rays beside Embree's.
+
+mod load;
 
 use std::f64::consts::PI;
 use std::hint::black_box;
 use std::time::Duration;
 
-use catoptric_reference::{Tracer, Truth, reflection_points};
-use catoptric_scene::{
-    Background, Camera, Fov, Material, Mesh, Mirror, Object, Paint, Scene, Shape,
-};
+use catoptric_reference::{RenderOptions, Tracer, Truth, reflection_points};
+use catoptric_scene::{Scene, Shape};
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
-use glam::{DMat3, DVec2, DVec3, Vec3};
+use glam::{DMat3, DVec3};
+use load::{Ray, Rays};
 use rayon::prelude::*;
 
+/// Width and height of the picture whose rays are traced.
 const SIZE: [u32; 2] = [256, 256];
-
-fn balls() -> Scene {
-    let objects = (0..25).map(|index| {
-        let around = 2.0 * PI * f64::from(index) / 25.0;
-        let height = f64::from(index % 5) - 2.0;
-        let center = DVec3::new(2.6 * around.cos(), height, 2.6 * around.sin());
-        let Mesh {
-            positions,
-            triangles,
-            ..
-        } = Shape::Sphere {
-            center,
-            radius: 0.45,
-        }
-        .tessellate(64);
-        let name = format!("ball {index}");
-        let materials = vec![Material {
-            name: name.clone(),
-            paint: Paint::Color(Vec3::ONE),
-        }];
-        let material = vec![0; triangles.len()];
-        Object {
-            name,
-            mesh: Mesh {
-                positions,
-                triangles,
-                material,
-                materials,
-                ..Mesh::default()
-            },
-        }
-    });
-    let shape = Shape::Sphere {
-        center: DVec3::ZERO,
-        radius: 1.5,
-    };
-    Scene {
-        name: "balls".into(),
-        why: "A load for benchmarks.".into(),
-        camera: Camera {
-            eye: DVec3::new(0.6, 1.5, 7.0),
-            target: DVec3::ZERO,
-            up: DVec3::Y,
-            fov: Fov::Y(40.0),
-            resolution: SIZE,
-        },
-        background: Background::Color(Vec3::ZERO),
-        objects: objects.collect(),
-        mirrors: vec![Mirror {
-            name: "mirror".into(),
-            shape,
-            tessellation: 64,
-        }],
-        motion: None,
-        hash: String::new(),
-    }
-}
 
 fn short<'a>(
     criterion: &'a mut Criterion,
@@ -86,52 +33,61 @@ fn short<'a>(
     group
 }
 
+fn scenes() -> Vec<Scene> {
+    let scenes = [Some(load::balls()), load::sponza()];
+    scenes.into_iter().flatten().collect()
+}
+
 fn build(criterion: &mut Criterion) {
-    let scene = balls();
     let mut group = short(criterion, "hierarchy");
-    group.throughput(Throughput::Elements(scene.triangle_count() as u64));
-    group.bench_function("build", |bencher| {
-        bencher.iter(|| Tracer::new(black_box(&scene)))
-    });
+    for scene in scenes() {
+        group.throughput(Throughput::Elements(scene.triangle_count() as u64));
+        group.bench_function(format!("{}/build", scene.name), |bencher| {
+            bencher.iter(|| Tracer::new(black_box(&scene)))
+        });
+    }
     group.finish();
 }
 
 fn rays(criterion: &mut Criterion) {
-    let scene = balls();
-    let tracer = Tracer::new(&scene).expect("a sound scene");
-    let view = scene.camera.view(SIZE);
-    let pixels = (0..SIZE[0] * SIZE[1]).map(|index| (index % SIZE[0], index / SIZE[0]));
-    let traces: Vec<_> = pixels
-        .map(|(x, y)| DVec2::new(f64::from(x), f64::from(y)) + 0.5)
-        .map(|at| tracer.reflect_pixel(&view, at, Truth::FirstBounce))
-        .collect();
-    let primary: Vec<_> = traces
-        .iter()
-        .map(|trace| (view.eye, trace.direction))
-        .collect();
-    let reflected: Vec<_> = traces
-        .iter()
-        .filter_map(|trace| Some((trace.primary?.position, trace.reflection?.direction)))
-        .collect();
     let mut group = short(criterion, "rays");
-    for (name, rays) in [("primary", &primary), ("reflected", &reflected)] {
-        let sees = |(origin, dir): &(DVec3, DVec3)| match name {
-            "primary" => tracer.trace(*origin, *dir).is_some(),
-            _ => tracer.trace_objects(*origin, *dir).is_some(),
-        };
-        group.throughput(Throughput::Elements(rays.len() as u64));
-        group.bench_function(format!("{name}/one thread"), |bencher| {
-            bencher.iter(|| rays.iter().filter(|ray| sees(ray)).count());
-        });
-        group.bench_function(format!("{name}/all threads"), |bencher| {
-            bencher.iter(|| rays.par_iter().filter(|ray| sees(ray)).count());
+    for scene in scenes() {
+        let tracer = Tracer::new(&scene).expect("a sound scene");
+        let Rays { primary, reflected } = Rays::new(&tracer, SIZE);
+        for (kind, rays) in [("primary", &primary), ("reflected", &reflected)] {
+            let sees = |(origin, dir): &Ray| match kind {
+                "primary" => tracer.trace(*origin, *dir).is_some(),
+                _ => tracer.trace_objects(*origin, *dir).is_some(),
+            };
+            let name = format!("{}/{kind}", scene.name);
+            group.throughput(Throughput::Elements(rays.len() as u64));
+            group.bench_function(format!("{name}/one thread"), |bencher| {
+                bencher.iter(|| rays.iter().filter(|ray| sees(ray)).count());
+            });
+            group.bench_function(format!("{name}/all threads"), |bencher| {
+                bencher.iter(|| rays.par_iter().filter(|ray| sees(ray)).count());
+            });
+        }
+    }
+    group.finish();
+}
+
+/// All layers at 640×480; the hierarchy is there already.
+fn picture(criterion: &mut Criterion) {
+    let mut group = short(criterion, "picture");
+    for scene in scenes() {
+        let tracer = Tracer::new(&scene).expect("a sound scene");
+        let options = RenderOptions::new([640, 480], Truth::FirstBounce);
+        group.throughput(Throughput::Elements(640 * 480));
+        group.bench_function(&scene.name, |bencher| {
+            bencher.iter(|| tracer.render(&options))
         });
     }
     group.finish();
 }
 
 fn vertices(criterion: &mut Criterion) {
-    let scene = balls();
+    let scene = load::balls();
     let vertices: Vec<DVec3> = scene
         .objects
         .iter()
@@ -179,5 +135,5 @@ fn vertices(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, build, rays, vertices);
+criterion_group!(benches, build, rays, picture, vertices);
 criterion_main!(benches);

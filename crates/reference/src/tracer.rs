@@ -314,7 +314,7 @@ impl Triangles {
                 let corners = corners(mesh, triangle);
                 let [a, b, c] = corners;
                 if (b - a).cross(c - a) != DVec3::ZERO {
-                    all.push(corners);
+                    all.push(mesh.triangles[triangle].map(|index| mesh.positions[index as usize]));
                     owners.push((index, triangle as u32));
                 }
             }

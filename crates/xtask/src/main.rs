@@ -3,14 +3,17 @@
 //! * `report` sets the machine up and writes the comparison report.
 //! * `test` sets the machine up and runs every test.
 //! * `ci` does what a change must pass: formatting, lints, documentation, `test`.
+//! * `embree` measures Embree beside our ray tracer, on the same rays.
 //!
 //! Each step is printed before it runs; the first that fails ends the chore with its exit code.
 //! Exit code 3 means that the machine lacks something and it could not be installed.
 
+mod embree;
 mod setup;
 
 use std::env;
 use std::ffi::OsString;
+use std::path::PathBuf;
 use std::process::{Command, ExitCode};
 
 use anyhow::{Context, Result};
@@ -44,6 +47,8 @@ enum Chore {
     Test,
     /// Check formatting, lints and documentation, then run every test
     Ci,
+    /// Measure Embree beside our ray tracer on the same rays, and check that hits agree
+    Embree,
 }
 
 fn main() -> ExitCode {
@@ -58,18 +63,22 @@ fn main() -> ExitCode {
 
 /// Runs a chore; the answer is its exit code.
 fn run(chore: Chore) -> Result<u8> {
-    let (needs, steps): (&[Need], Vec<Step>) = match chore {
-        Chore::Report { args } => (&[Need::Vulkan], vec![report(args)]),
+    let (needs, mut steps): (&[Need], Vec<Step>) = match &chore {
+        Chore::Report { args } => (&[Need::Vulkan], vec![report(args.clone())]),
         Chore::Test => (&[Need::Vulkan, Need::CppCompiler], vec![test()]),
         Chore::Ci => {
             let mut steps = checks();
             steps.push(test());
             (&[Need::Vulkan, Need::CppCompiler], steps)
         }
+        Chore::Embree => (&[Need::CppCompiler, Need::Embree], vec![]),
     };
     if let Err(message) = setup::provide(needs)? {
         eprintln!("xtask: {message}");
         return Ok(NOT_SET_UP);
+    }
+    if matches!(chore, Chore::Embree) {
+        steps.push(compare_embree(embree::compile()?));
     }
     for step in steps {
         let code = step.run()?;
@@ -92,6 +101,13 @@ fn report(args: Vec<OsString>) -> Step {
         step.args.extend(["--suite", "quick"].map(OsString::from));
     }
     step.args.extend(args);
+    step
+}
+
+/// Our tracer and Embree, whose program this is.
+fn compare_embree(program: PathBuf) -> Step {
+    let mut step = Step::cargo("bench -p catoptric-reference --bench embree -- --embree");
+    step.args.push(program.into());
     step
 }
 

@@ -31,6 +31,8 @@ pub enum Need {
     Vulkan,
     /// A C++ compiler: a dependency of the tests (`nv-flip`) is written in C++.
     CppCompiler,
+    /// Embree 3, to measure beside.
+    Embree,
 }
 
 impl Need {
@@ -39,6 +41,7 @@ impl Need {
         match self {
             Self::Vulkan => "a Vulkan driver and its loader",
             Self::CppCompiler => "a C++ compiler (for a dependency of the tests)",
+            Self::Embree => "Embree 3 with its headers",
         }
     }
 
@@ -47,6 +50,7 @@ impl Need {
         match self {
             Self::Vulkan => &["mesa-vulkan-drivers", "libvulkan1"],
             Self::CppCompiler => &["g++"],
+            Self::Embree => &["libembree-dev"],
         }
     }
 
@@ -55,6 +59,7 @@ impl Need {
         match self {
             Self::Vulkan => &["vulkan-loader", "mesa-vulkan-drivers"],
             Self::CppCompiler => &["gcc-c++"],
+            Self::Embree => &["embree3-devel"],
         }
     }
 
@@ -63,6 +68,7 @@ impl Need {
         match self {
             Self::Vulkan => &["vulkan-icd-loader", "vulkan-swrast"],
             Self::CppCompiler => &["gcc"],
+            Self::Embree => &["embree3"],
         }
     }
 
@@ -73,6 +79,12 @@ impl Need {
             Self::CppCompiler => {
                 env::var_os("CXX").is_some_and(|name| !name.is_empty())
                     || ["c++", "g++", "clang++"].iter().any(|name| on_path(name))
+            }
+            Self::Embree => {
+                let folders = env::var_os("CPATH").unwrap_or_default();
+                env::split_paths(&folders)
+                    .chain(["/usr/include", "/usr/local/include"].map(PathBuf::from))
+                    .any(|folder| folder.join("embree3/rtcore.h").is_file())
             }
         }
     }

@@ -41,11 +41,11 @@ fn techniques(format: Format) -> anyhow::Result<()> {
         .iter()
         .map(|info| {
             let option = |option: &catoptric_reflect::OptionInfo| {
-                json!({ "name": option.name, "default": option.values[0], "values": option.values, "what": option.what })
+                json!({ "name": option.name, "default": option.default(), "values": option.allowed(), "what": option.what })
             };
-            let options: Vec<Value> = info.options.iter().map(option).collect();
-            json!({ "name": info.name, "what": info.what, "family": info.family, "paper": info.paper,
-                    "options": options, "available": info.reason.is_none(), "reason": info.reason })
+            let options: Vec<Value> = info.options().map(option).collect();
+            json!({ "name": info.name, "what": info.what, "family": info.family.to_string(), "paper": info.paper,
+                    "options": options, "available": info.reason().is_none(), "reason": info.reason() })
         })
         .collect();
     if format == Format::Json {

@@ -207,7 +207,7 @@ pub fn record(
         Some(Err(reason)) => row.meta.notes.push(reason),
         None => {}
     }
-    row.triangles = Some(rendered.output.triangles.clone());
+    row.triangles = rendered.output.triangles.clone();
     row.work = Some(Work::from(&rendered.output));
     if let Some(samples) = samples {
         row.time_ms = times(rendered.prepare_ms, &samples);

@@ -77,9 +77,12 @@ fn describe(adapter: &wgpu::Adapter) -> AdapterInfo {
     }
 }
 
+/// Vulkan, Metal and DirectX 12; OpenGL lacks what the passes need.
 fn enumerate() -> Vec<wgpu::Adapter> {
-    let instance = wgpu::Instance::default();
-    pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()))
+    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+    descriptor.backends = wgpu::Backends::PRIMARY;
+    let instance = wgpu::Instance::new(descriptor);
+    pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY))
 }
 
 /// All adapters of this machine, in the order the drivers give them.
@@ -142,6 +145,15 @@ impl Gpu {
         crate::timing::self_test(self)
     }
 
+    /// Refuses a buffer that no shader could see as a whole.
+    pub(crate) fn check_binding(&self, bytes: u64) -> Result<(), crate::ReflectError> {
+        let limit = self.device.limits().max_storage_buffer_binding_size;
+        if bytes > limit {
+            return Err(crate::ReflectError::TooLarge { bytes, limit });
+        }
+        Ok(())
+    }
+
     /// Waits until everything submitted has run.
     pub(crate) fn wait(&self) {
         self.device
@@ -151,14 +163,19 @@ impl Gpu {
 
     /// Bytes of a buffer that was created with `COPY_SRC`.
     pub(crate) fn read_buffer(&self, buffer: &wgpu::Buffer) -> Vec<u8> {
+        self.read_buffer_part(buffer, buffer.size())
+    }
+
+    /// The first `size` bytes (a multiple of 4) of a buffer that was created with `COPY_SRC`.
+    pub(crate) fn read_buffer_part(&self, buffer: &wgpu::Buffer, size: u64) -> Vec<u8> {
         let staging = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("readback"),
-            size: buffer.size(),
+            size,
             usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
             mapped_at_creation: false,
         });
         let mut encoder = self.device.create_command_encoder(&Default::default());
-        encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, buffer.size());
+        encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, size);
         self.queue.submit([encoder.finish()]);
         self.mapped(&staging)
     }

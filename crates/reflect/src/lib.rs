@@ -2,24 +2,50 @@
 //!
 //! `parse` a technique name, ask `supports`, `prepare` it for a scene and size, then `render`
 //! (all layers and counters) or `time_frame` (what an application would draw).
+//!
+//! Where things go:
+//! * a new search: a file in `search/`, a shader of the same name, a line in `registry.rs`;
+//! * a new refinement: likewise in `refine/`;
+//! * a new technique of image order: likewise in `image_order/`.
+//!
+//! `object_order.rs` puts searches and refinements together; `stage.rs` has the passes that all
+//! techniques share. `twin/` runs shader arithmetic on the CPU, for tests.
 
+mod composite;
+mod data;
+mod gbuffer;
 pub mod gpu;
+mod image_order;
 mod object_order;
+mod points;
+mod primary;
+mod raster;
+mod recorder;
+mod refine;
 pub mod registry;
+mod resources;
+mod search;
 pub mod shaders;
 pub mod spec;
+mod stage;
+mod technique;
+#[cfg(test)]
+mod testing;
 pub mod timing;
-mod uniforms;
+#[cfg(test)]
+mod twin;
+mod world;
 
 pub use gpu::{AdapterInfo, Gpu, GpuError, Prefer, adapters};
-pub use object_order::Prepared;
-pub use registry::{OptionInfo, TechniqueInfo, list};
-pub use spec::{Spec, SpecError, parse};
+pub use registry::{Family, OptionInfo, TechniqueInfo, Values, list};
+pub use spec::{Options, Spec, SpecError, parse};
+pub use technique::{Output, Prepared};
 pub use timing::{FrameTime, SelfTest};
 
-use catoptric_frame::{Frame, Triangles, VertexResult, Work};
 use catoptric_scene::Scene;
 use thiserror::Error;
+
+use registry::Maker;
 
 /// Why a technique cannot render.
 #[derive(Debug, Error)]
@@ -43,6 +69,9 @@ pub enum ReflectError {
         /// Possible.
         limit: u64,
     },
+    /// A frame of a scene that was not prepared for.
+    #[error("the scene has other vertices, triangles or mirrors than the one prepared for")]
+    OtherScene,
 }
 
 /// Whether a technique can draw a scene.
@@ -54,37 +83,42 @@ pub enum Support {
     No(String),
 }
 
-/// A rendered frame and all that was counted on the way.
-#[derive(Clone, Debug)]
-pub struct Output {
-    /// All layers.
-    pub frame: Frame,
-    /// By mirror, object, vertex; `None` for techniques that search no vertices.
-    pub vertices: Option<Vec<VertexResult>>,
-    /// Triangles of the virtual geometry.
-    pub triangles: Triangles,
-    /// Means per searched vertex.
-    pub work: Work,
-}
-
 /// Whether `spec` can draw `scene`.
-pub fn supports(_spec: &Spec, scene: &Scene) -> Support {
+pub fn supports(spec: &Spec, scene: &Scene) -> Support {
     if scene.mirrors.is_empty() {
-        Support::No("the scene has no mirror".to_owned())
-    } else {
-        Support::Yes
+        return Support::No("the scene has no mirror".to_owned());
     }
+    let parts = [Some(&spec.options), spec.refinement.as_ref()];
+    let objection = parts
+        .into_iter()
+        .flatten()
+        .find_map(|options| (options.info().objection)(options, scene));
+    objection.map_or(Support::Yes, Support::No)
 }
 
 /// Makes a technique ready for a scene and an image size.
 ///
 /// # Errors
 /// A size or scene that the device cannot hold.
+///
+/// # Panics
+/// On a `Spec` that [`parse`] would not have made.
 pub fn prepare<'g>(
     gpu: &'g Gpu,
     spec: &Spec,
     scene: &Scene,
     size: [u32; 2],
 ) -> Result<Prepared<'g>, ReflectError> {
-    Prepared::new(gpu, spec, scene, size)
+    let refinement = spec.refinement.as_ref().map(|options| options.info().maker);
+    let technique = match (spec.options.info().maker, refinement) {
+        (Maker::Search(search), None) => {
+            object_order::prepare(gpu, (search, refine::none::make), spec, scene, size)
+        }
+        (Maker::Search(search), Some(Maker::Refinement(refine))) => {
+            object_order::prepare(gpu, (search, refine), spec, scene, size)
+        }
+        (Maker::ImageOrder(make), None) => image_order::prepare(gpu, make, spec, scene, size),
+        parts => unreachable!("a parsed technique is never {parts:?}"),
+    }?;
+    Ok(Prepared::new(gpu, technique))
 }

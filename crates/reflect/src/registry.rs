@@ -1,20 +1,49 @@
-//! Every technique, in one table: adding one adds a line here.
+//! Every technique, in one table: adding one adds an entry here.
 
-/// What `catoptric list techniques` shows of a technique.
+use std::fmt;
+
+use catoptric_scene::Scene;
+
+use crate::spec::Options;
+use crate::{image_order, refine, search};
+
+/// What a technique is called, takes, and is made by.
 #[derive(Clone, Copy, Debug)]
 pub struct TechniqueInfo {
     /// As written on the command line; refinements start with `+`.
     pub name: &'static str,
     /// A sentence.
     pub what: &'static str,
-    /// `search`, `refinement` or `image order`.
-    pub family: &'static str,
+    /// How it goes together with others.
+    pub family: Family,
     /// Where it was published.
     pub paper: &'static str,
-    /// Options, in display order.
-    pub options: &'static [OptionInfo],
-    /// Why it cannot be used yet; `None` if it can.
-    pub reason: Option<&'static str>,
+    /// Groups of options, in display order.
+    pub(crate) options: &'static [&'static [OptionInfo]],
+    pub(crate) maker: Maker,
+    /// Why it cannot draw a scene that has mirrors; `None` if it can.
+    pub(crate) objection: fn(&Options, &Scene) -> Option<String>,
+}
+
+/// How a technique goes together with others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Family {
+    /// Finds reflection points; goes with any refinement.
+    Search,
+    /// Chooses the points to search; goes with any search.
+    Refinement,
+    /// Finds what each mirror pixel's ray meets; stands alone.
+    ImageOrder,
+}
+
+impl fmt::Display for Family {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Search => "search",
+            Self::Refinement => "refinement",
+            Self::ImageOrder => "image order",
+        })
+    }
 }
 
 /// One option of a technique.
@@ -22,62 +51,145 @@ pub struct TechniqueInfo {
 pub struct OptionInfo {
     /// Key.
     pub name: &'static str,
-    /// Values it takes, the default first.
-    pub values: &'static [&'static str],
+    /// What it may be; the default first.
+    pub values: Values,
     /// A sentence.
     pub what: &'static str,
 }
 
-const fn option(
+/// What an option may be.
+#[derive(Clone, Copy, Debug)]
+pub enum Values {
+    /// One of these, by default the first.
+    Words(&'static [&'static str]),
+    /// A whole number.
+    Whole {
+        /// Where it is not given.
+        default: u32,
+        /// Least and greatest.
+        range: [u32; 2],
+    },
+    /// A number.
+    Number {
+        /// Where it is not given.
+        default: f64,
+        /// Least and greatest.
+        range: [f64; 2],
+    },
+}
+
+/// What makes a technique.
+#[derive(Clone, Copy, Debug)]
+#[expect(dead_code, reason = "families without a technique yet")]
+pub(crate) enum Maker {
+    Search(search::Make),
+    Refinement(refine::Make),
+    ImageOrder(image_order::Make),
+    /// It cannot be made, for this reason.
+    Missing(&'static str),
+}
+
+impl TechniqueInfo {
+    /// Why it cannot be used; `None` if it can.
+    pub fn reason(&self) -> Option<&'static str> {
+        match self.maker {
+            Maker::Missing(reason) => Some(reason),
+            _ => None,
+        }
+    }
+
+    /// All options, in display order.
+    pub fn options(&self) -> impl Iterator<Item = &'static OptionInfo> + Clone + use<> {
+        self.options.iter().copied().flatten()
+    }
+}
+
+impl OptionInfo {
+    /// The value where none is given.
+    pub fn default(&self) -> String {
+        match self.values {
+            Values::Words(words) => words[0].to_owned(),
+            Values::Whole { default, .. } => default.to_string(),
+            Values::Number { default, .. } => default.to_string(),
+        }
+    }
+
+    /// What it may be, in words.
+    pub fn allowed(&self) -> String {
+        match self.values {
+            Values::Words(words) => words.join(", "),
+            Values::Whole { range, .. } => format!("a whole number, {} to {}", range[0], range[1]),
+            Values::Number { range, .. } => format!("a number, {} to {}", range[0], range[1]),
+        }
+    }
+}
+
+const fn words(
     name: &'static str,
     values: &'static [&'static str],
     what: &'static str,
 ) -> OptionInfo {
-    OptionInfo { name, values, what }
+    OptionInfo {
+        name,
+        values: Values::Words(values),
+        what,
+    }
 }
 
-const LINEAR: &[OptionInfo] = &[
-    option(
-        "start",
-        &["center", "bounds", "previous"],
-        "where the walk starts: the mirror's projected centre, its projected bounding box's, or the previous frame's answer",
-    ),
-    option(
-        "neighbours",
-        &["4", "8"],
-        "texels compared with in each step",
-    ),
-    option(
-        "residual",
-        &["dot", "cross"],
-        "the measure of a texel's fitness",
-    ),
-    option(
-        "depth",
-        &["thesis", "virtual"],
-        "what the virtual triangles are depth-tested by",
-    ),
-    option(
-        "hidden",
-        &["drop"],
-        "what becomes of triangles with a hidden vertex",
-    ),
-    option(
+/// Options of every technique.
+const EVERY: &[OptionInfo] = &[
+    words(
         "gbuffer",
         &["exact", "mesh"],
         "mirror points by analytic intersection, or of the drawn triangles",
     ),
-    option(
+    words(
         "under",
         &["background", "dark"],
         "what a mirror shows where no reflection is drawn",
     ),
 ];
 
+/// Options of every search.
+const SEARCH: &[OptionInfo] = &[
+    words(
+        "depth",
+        &["thesis", "virtual"],
+        "what the virtual triangles are depth-tested by",
+    ),
+    words(
+        "hidden",
+        &["drop"],
+        "what becomes of triangles with a hidden vertex",
+    ),
+];
+
+const LINEAR: &[OptionInfo] = &[
+    words(
+        "start",
+        &["center", "bounds", "previous"],
+        "where the walk starts: the mirror's projected centre, its projected bounding box's, or the previous frame's answer",
+    ),
+    words(
+        "neighbours",
+        &["4", "8"],
+        "texels compared with in each step",
+    ),
+    words(
+        "residual",
+        &["dot", "cross"],
+        "the measure of a texel's fitness",
+    ),
+];
+
+fn any_scene(_: &Options, _: &Scene) -> Option<String> {
+    None
+}
+
 const fn later(
     name: &'static str,
     what: &'static str,
-    family: &'static str,
+    family: Family,
     paper: &'static str,
 ) -> TechniqueInfo {
     TechniqueInfo {
@@ -86,7 +198,8 @@ const fn later(
         family,
         paper,
         options: &[],
-        reason: Some("not built yet"),
+        maker: Maker::Missing("not built yet"),
+        objection: any_scene,
     }
 }
 
@@ -95,82 +208,88 @@ pub const TECHNIQUES: &[TechniqueInfo] = &[
     TechniqueInfo {
         name: "linear",
         what: "linear screen-space search",
-        family: "search",
+        family: Family::Search,
         paper: "Szabo 2013",
-        options: LINEAR,
-        reason: None,
+        options: &[LINEAR, SEARCH, EVERY],
+        maker: Maker::Search(search::linear::make),
+        objection: any_scene,
     },
     later(
         "ray-hierarchy",
         "cone and sphere pyramid over the reflected rays",
-        "search",
+        Family::Search,
         "Szabo 2013",
     ),
     later(
         "reflector-cubemap",
         "midpoint search in cube maps of the mirror",
-        "search",
+        Family::Search,
         "Estalella et al. 2005",
     ),
     later(
         "newton",
         "Newton's method on the G-buffer, sub-pixel",
-        "search",
+        Family::Search,
         "this project",
     ),
     later(
         "swept-boxes",
         "watertight pyramid, all solutions",
-        "search",
+        Family::Search,
         "this project",
     ),
-    later("+full", "splits every triangle", "refinement", "Szabo 2013"),
+    later(
+        "+full",
+        "splits every triangle",
+        Family::Refinement,
+        "Szabo 2013",
+    ),
     later(
         "+adaptive",
         "splits where the edge error is large",
-        "refinement",
+        Family::Refinement,
         "Szabo 2013",
     ),
     later(
         "+grid",
         "interpolates most vertices from a grid",
-        "refinement",
+        Family::Refinement,
         "Estalella et al. 2005",
     ),
     later(
         "+pixel",
         "crack-free, error in pixels",
-        "refinement",
+        Family::Refinement,
         "this project",
     ),
     later(
         "+exact",
         "ray-triangle test a fragment",
-        "refinement",
+        Family::Refinement,
         "this project",
     ),
     later(
         "environment-map",
         "one cube map from the mirror's centre",
-        "image order",
+        Family::ImageOrder,
         "baseline",
     ),
     later(
         "planar",
         "mirrored viewpoint, flat mirrors",
-        "image order",
+        Family::ImageOrder,
         "baseline",
     ),
     later(
         "cubemap-trace",
         "rays marched through cube maps of distance",
-        "image order",
+        Family::ImageOrder,
         "Číž 2017",
     ),
     later(
         "ray-trace",
         "the reference's rays on the GPU",
-        "image order",
+        Family::ImageOrder,
         "control",
     ),
 ];

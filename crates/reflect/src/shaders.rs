@@ -1,72 +1,45 @@
 //! Shader sources, linked by WESL when a pipeline is built.
+//!
+//! `shaders/shared/` holds modules to import; every other file is a program with entry points.
+//! A program's features are the names in its `@if(…)` and those of the modules it imports.
 
+use include_dir::{Dir, include_dir};
 use wesl::{ManglerKind, VirtualResolver, Wesl};
 
-/// Every module below `shaders/`: path in imports and text.
-const MODULES: &[(&str, &str)] = &[
-    (
-        "package::shared::view",
-        include_str!("../../../shaders/shared/view.wesl"),
-    ),
-    (
-        "package::shared::surface",
-        include_str!("../../../shaders/shared/surface.wesl"),
-    ),
-    (
-        "package::shared::mirror",
-        include_str!("../../../shaders/shared/mirror.wesl"),
-    ),
-    (
-        "package::shared::found",
-        include_str!("../../../shaders/shared/found.wesl"),
-    ),
-    (
-        "package::primary",
-        include_str!("../../../shaders/primary.wesl"),
-    ),
-    (
-        "package::gbuffer",
-        include_str!("../../../shaders/gbuffer.wesl"),
-    ),
-    (
-        "package::start",
-        include_str!("../../../shaders/start.wesl"),
-    ),
-    (
-        "package::linear",
-        include_str!("../../../shaders/linear.wesl"),
-    ),
-    (
-        "package::virtual",
-        include_str!("../../../shaders/virtual.wesl"),
-    ),
-    (
-        "package::composite",
-        include_str!("../../../shaders/composite.wesl"),
-    ),
-];
+static SHADERS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../../shaders");
 
-/// Modules with entry points, and the features each knows.
-pub const PROGRAMS: &[(&str, &[&str])] = &[
-    ("primary", &[]),
-    ("gbuffer", &[]),
-    ("start", &[]),
-    ("linear", &["count", "cross", "eight"]),
-    ("virtual", &["virtual_depth"]),
-    ("composite", &[]),
-];
+/// Files below `dir`: path without extension, and text.
+fn files<'a>(dir: &'a Dir<'a>, into: &mut Vec<(String, &'a str)>) {
+    for file in dir.files() {
+        if let (Some("wesl"), Some(text)) = (
+            file.path()
+                .extension()
+                .and_then(|extension| extension.to_str()),
+            file.contents_utf8(),
+        ) {
+            let path = file.path().with_extension("");
+            let parts: Vec<_> = path.iter().filter_map(|part| part.to_str()).collect();
+            into.push((parts.join("/"), text));
+        }
+    }
+    for dir in dir.dirs() {
+        files(dir, into);
+    }
+}
 
-/// Plain WGSL of a program with the given features on and all others off.
+/// Plain WGSL of a program, such as `linear`, with the given features on and all others off.
 ///
 /// # Errors
 /// The linker's message, naming the module.
 pub fn link(program: &str, features: &[&str]) -> Result<String, String> {
+    let mut modules = Vec::new();
+    files(&SHADERS, &mut modules);
     let mut resolver = VirtualResolver::new();
-    for (path, text) in MODULES {
-        resolver.add_module(
-            path.parse().map_err(|error| format!("{path}: {error}"))?,
-            (*text).into(),
-        );
+    let module = |name: &str| format!("package::{}", name.replace('/', "::"));
+    for (name, text) in modules {
+        let path = module(&name);
+        let path = path.parse().map_err(|error| format!("{name}: {error}"))?;
+        resolver.add_module(path, text.into());
     }
     let mut compiler = Wesl::new_barebones().set_custom_resolver(resolver);
     compiler
@@ -78,7 +51,7 @@ pub fn link(program: &str, features: &[&str]) -> Result<String, String> {
     for feature in features {
         compiler.set_feature(feature, true);
     }
-    let root = format!("package::{program}")
+    let root = module(program)
         .parse()
         .map_err(|error| format!("{program}: {error}"))?;
     let linked = compiler
@@ -88,33 +61,86 @@ pub fn link(program: &str, features: &[&str]) -> Result<String, String> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
+pub(crate) mod tests {
+    use std::collections::BTreeSet;
+
     use naga::valid::{Capabilities, ValidationFlags, Validator};
+
+    use super::*;
+
+    /// Every program and its features.
+    fn programs() -> Vec<(String, Vec<String>)> {
+        let mut modules = Vec::new();
+        files(&SHADERS, &mut modules);
+        let is_shared = |name: &str| name.starts_with("shared/");
+        let programs = modules.iter().filter(|(name, _)| !is_shared(name));
+        programs
+            .map(|(name, text)| {
+                let imported = modules.iter().filter(|(other, _)| {
+                    is_shared(other)
+                        && text.contains(&format!("package::{}", other.replace('/', "::")))
+                });
+                let texts = imported.map(|(_, text)| *text).chain([*text]);
+                let features: BTreeSet<_> = texts.flat_map(features).collect();
+                (name.clone(), features.into_iter().collect())
+            })
+            .collect()
+    }
+
+    /// Names in `@if(…)`.
+    fn features(text: &str) -> Vec<String> {
+        let conditions = text.split("@if(").skip(1);
+        conditions
+            .filter_map(|rest| rest.split(')').next())
+            .flat_map(|condition| condition.split(|c: char| !c.is_alphanumeric() && c != '_'))
+            .filter(|name| !name.is_empty())
+            .map(str::to_owned)
+            .collect()
+    }
+
+    /// All sets of up to five features; of more features, all sets of at most two, and all.
+    fn sets(features: &[String]) -> Vec<Vec<&str>> {
+        let count = features.len();
+        let chosen = (0..1_u32 << count).filter(|set| {
+            count <= 5 || set.count_ones() <= 2 || set.count_ones() as usize == count
+        });
+        chosen
+            .map(|set| {
+                let on = features
+                    .iter()
+                    .enumerate()
+                    .filter(|(bit, _)| set >> bit & 1 == 1);
+                on.map(|(_, name)| name.as_str()).collect()
+            })
+            .collect()
+    }
+
+    /// A linked program as naga sees it.
+    pub(crate) fn parsed(program: &str, features: &[&str]) -> naga::Module {
+        let text = link(program, features).expect("links");
+        naga::front::wgsl::parse_str(&text).unwrap_or_else(|error| {
+            panic!("{program} {features:?}: {}", error.emit_to_string(&text))
+        })
+    }
 
     #[test]
     fn every_program_is_valid_with_every_set_of_features() {
-        let mut validated = 0;
-        for (program, features) in PROGRAMS {
-            for set in 0..1_u32 << features.len() {
-                let on: Vec<_> = features
-                    .iter()
-                    .enumerate()
-                    .filter(|(bit, _)| set >> bit & 1 == 1)
-                    .map(|(_, name)| *name)
-                    .collect();
-                let text = link(program, &on).expect("links");
-                let module = naga::front::wgsl::parse_str(&text).unwrap_or_else(|error| {
-                    panic!("{program} {on:?}: {}", error.emit_to_string(&text))
-                });
+        let programs = programs();
+        assert!(programs.len() >= 6, "{programs:?}");
+        for (program, features) in &programs {
+            for on in sets(features) {
+                let module = parsed(program, &on);
                 Validator::new(ValidationFlags::all(), Capabilities::default())
                     .validate(&module)
-                    .unwrap_or_else(|error| {
-                        panic!("{program} {on:?}: {}", error.emit_to_string(&text))
-                    });
-                validated += 1;
+                    .unwrap_or_else(|error| panic!("{program} {on:?}: {error:?}"));
             }
         }
-        assert_eq!(validated, 4 + 8 + 2);
+    }
+
+    #[test]
+    fn features_are_found_in_the_sources() {
+        let linear = programs().into_iter().find(|(name, _)| name == "linear");
+        let (_, features) = linear.expect("there is a linear search");
+        assert_eq!(features, ["count", "cross", "eight"]);
     }
 }

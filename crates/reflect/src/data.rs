@@ -1,8 +1,8 @@
 //! Buffer structs, laid out by encase as the shaders read them.
 
-use catoptric_scene::{Background, Mesh, Paint, Scene, Shape, View};
+use catoptric_scene::{Background, Mesh, Paint, Scene, Shape};
 use encase::ShaderType;
-use glam::{DVec2, DVec3, UVec2, Vec2, Vec3};
+use glam::{DVec3, UVec2, Vec2, Vec3};
 
 /// Twin of `shared/view.wesl`.
 #[derive(Clone, Copy, Debug, ShaderType)]
@@ -27,7 +27,9 @@ pub(crate) struct ViewUniform {
 const NEAR: f32 = 1e-3;
 
 impl ViewUniform {
-    pub(crate) fn new(scene: &Scene, view: &View, dark: bool) -> Self {
+    /// `dark`: mirrors are black where no reflection is drawn.
+    pub(crate) fn new(scene: &Scene, size: [u32; 2], dark: bool) -> Self {
+        let view = scene.camera.view(size);
         let (background_kind, zenith, horizon, nadir) = match scene.background {
             Background::Color(color) => (0, color, color, color),
             Background::Gradient {
@@ -88,15 +90,13 @@ pub(crate) struct MirrorUniform {
     pub axis_x: Vec3,
     pub cos_half_angle: f32,
     pub axis_y: Vec3,
-    pub start_x: f32,
     pub axis_z: Vec3,
-    pub start_y: f32,
     pub radii: Vec3,
-    pub pad: u32,
 }
 
 impl MirrorUniform {
-    pub(crate) fn new(shape: &Shape, id: u32, view: &View, start: DVec2) -> Self {
+    /// `eye` in world space.
+    pub(crate) fn new(shape: &Shape, id: u32, eye: DVec3) -> Self {
         let mut axes = [DVec3::X, DVec3::Y, DVec3::Z];
         let (kind, radii, cos_half_angle) = match shape {
             Shape::Sphere { radius, .. } => (0, DVec3::splat(*radius), 0.0),
@@ -128,27 +128,32 @@ impl MirrorUniform {
         Self {
             center: center.as_vec3(),
             shape: kind,
-            eye: (view.eye - center).as_vec3(),
+            eye: (eye - center).as_vec3(),
             id,
             axis_x: axes[0].as_vec3(),
             cos_half_angle: cos_half_angle as f32,
             axis_y: axes[1].as_vec3(),
-            start_x: start.x as f32,
             axis_z: axes[2].as_vec3(),
-            start_y: start.y as f32,
             radii: radii.as_vec3(),
-            pad: 0,
         }
     }
 }
 
-/// Twin of `Settings` in `linear.wesl` and `virtual.wesl`.
+/// Twin of `Range` in `shared/points.wesl`: which points of a batch are searched.
 #[derive(Clone, Copy, Debug, ShaderType)]
-pub(crate) struct SearchSettings {
-    pub vertices: u32,
-    pub first_found: u32,
+pub(crate) struct Range {
+    pub first: u32,
+    pub count: u32,
     pub warm: u32,
-    pub max_steps: u32,
+}
+
+/// Twin of `Effort` in `shared/points.wesl`: what the search of one point took.
+#[derive(Clone, Copy, Debug, ShaderType)]
+pub(crate) struct Effort {
+    pub steps: u32,
+    pub evaluations: u32,
+    pub node_tests: u32,
+    pub flags: u32,
 }
 
 /// Twin of `Corner` in `shared/surface.wesl`.
@@ -171,17 +176,31 @@ pub(crate) struct MaterialUniform {
     pub first_texel: u32,
     pub width: u32,
     pub height: u32,
-    pub pad: u32,
 }
 
-/// Twin of `shared/found.wesl`.
+/// Twin of `Found` in `shared/points.wesl`.
 #[derive(Clone, Copy, Debug, ShaderType)]
 pub(crate) struct Found {
     pub position: Vec3,
     pub state: u32,
     pub at: Vec2,
     pub distance: f32,
-    pub pad: u32,
+}
+
+impl Found {
+    /// `state`: the point has this reflection point.
+    pub const FOUND: u32 = 0;
+    /// `state`: behind the mirror's tangent plane at the point found.
+    pub const HIDDEN: u32 = 1;
+    /// `state`: the search has no answer.
+    pub const FAILED: u32 = 2;
+}
+
+impl Effort {
+    /// `flags`: the hierarchy left a gap here.
+    pub const MET_HOLE: u32 = 1;
+    /// `flags`: the enlargement repair was used.
+    pub const ENLARGED: u32 = 2;
 }
 
 /// All object geometry of a scene, flattened.
@@ -235,7 +254,6 @@ impl Geometry {
             first_texel: 0,
             width: 0,
             height: 0,
-            pad: 0,
         };
         match paint {
             Paint::Color(color) => material.a = *color,
@@ -264,5 +282,117 @@ impl Geometry {
             Paint::Vertex => material.kind = 3,
         }
         self.materials.push(material);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use encase::ShaderSize;
+
+    use super::*;
+    use crate::shaders::tests::parsed;
+
+    /// Names, offsets and size of a struct as a linked shader has it.
+    fn shader_layout(program: &str, features: &[&str], name: &str) -> (Vec<(String, u64)>, u64) {
+        let module = parsed(program, features);
+        let is_it = |ty: &naga::Type| {
+            let full = ty.name.as_deref().unwrap_or_default();
+            full == name || full.ends_with(&format!("_{name}"))
+        };
+        let found = module.types.iter().find(|(_, ty)| is_it(ty));
+        let (_, ty) = found.unwrap_or_else(|| panic!("{program} has no struct {name}"));
+        let naga::TypeInner::Struct { members, span } = &ty.inner else {
+            panic!("{name} is no struct")
+        };
+        let member = |member: &naga::StructMember| {
+            let name = member.name.clone().unwrap_or_default();
+            (name, u64::from(member.offset))
+        };
+        (members.iter().map(member).collect(), u64::from(*span))
+    }
+
+    /// Checks a buffer struct against a shader, member by member.
+    macro_rules! check {
+        ($ty:ident, $program:literal, $features:expr, $name:literal, [$($field:ident),*]) => {{
+            let _every_field = |value: $ty| { let $ty { $($field: _),* } = value; };
+            let names = [$(stringify!($field)),*];
+            let members: Vec<_> = (names.iter().enumerate())
+                .map(|(index, name)| (name.to_string(), <$ty as ShaderType>::METADATA.offset(index)))
+                .collect();
+            let expected = shader_layout($program, $features, $name);
+            assert_eq!((members, $ty::SHADER_SIZE.get()), expected, "{}", $name);
+        }};
+    }
+
+    #[test]
+    fn buffer_structs_lie_as_the_shaders_read_them() {
+        check!(
+            ViewUniform,
+            "composite",
+            &[],
+            "View",
+            [
+                eye,
+                near,
+                right,
+                tan_x,
+                up,
+                tan_y,
+                forward,
+                depth_range,
+                size,
+                background_kind,
+                under,
+                zenith,
+                horizon,
+                nadir
+            ]
+        );
+        check!(
+            MirrorUniform,
+            "gbuffer",
+            &[],
+            "Mirror",
+            [
+                center,
+                shape,
+                eye,
+                id,
+                axis_x,
+                cos_half_angle,
+                axis_y,
+                axis_z,
+                radii
+            ]
+        );
+        check!(
+            Corner,
+            "primary",
+            &[],
+            "Corner",
+            [uv, vertex, material, color, object]
+        );
+        check!(
+            MaterialUniform,
+            "primary",
+            &[],
+            "Material",
+            [a, kind, b, cells, first_texel, width, height]
+        );
+        check!(Range, "linear", &[], "Range", [first, count, warm]);
+        check!(
+            Found,
+            "linear",
+            &[],
+            "Found",
+            [position, state, at, distance]
+        );
+        check!(
+            Effort,
+            "linear",
+            &["count"],
+            "Effort",
+            [steps, evaluations, node_tests, flags]
+        );
     }
 }

@@ -1,0 +1,73 @@
+//! Image order: for each mirror pixel, what its reflected ray meets. One file a technique, named
+//! as its shader: mirror G-buffer → technique → composite.
+
+use catoptric_frame::Work;
+use catoptric_scene::Scene;
+
+use crate::ReflectError;
+use crate::gpu::Gpu;
+use crate::recorder::Recorder;
+use crate::spec::{Options, Spec};
+use crate::stage::Stage;
+use crate::technique::{Output, Technique, Variant};
+
+/// A technique of this family that stands ready for one scene and image size.
+pub(crate) trait ImageOrder {
+    /// Takes over what moved; the stage has been updated already.
+    ///
+    /// # Errors
+    /// As when preparing.
+    fn update(&mut self, gpu: &Gpu, stage: &Stage) -> Result<(), ReflectError>;
+
+    /// Records the passes that fill `stage.reflections`, for all mirrors.
+    fn record(&self, frame: &mut Recorder<'_>, stage: &Stage, variant: Variant);
+
+    /// Work of the last frame: means per mirror pixel.
+    fn work(&self, gpu: &Gpu, stage: &Stage) -> Work;
+}
+
+/// Makes a technique by its name.
+pub(crate) type Make = fn(&Gpu, &Options, &Stage) -> Result<Box<dyn ImageOrder>, ReflectError>;
+
+struct Whole {
+    stage: Stage,
+    technique: Box<dyn ImageOrder>,
+}
+
+/// Makes a technique ready for a scene.
+pub(crate) fn prepare(
+    gpu: &Gpu,
+    make: Make,
+    spec: &Spec,
+    scene: &Scene,
+    size: [u32; 2],
+) -> Result<Box<dyn Technique>, ReflectError> {
+    let stage = Stage::new(gpu, &spec.options, scene, size)?;
+    let technique = make(gpu, &spec.options, &stage)?;
+    Ok(Box::new(Whole { stage, technique }))
+}
+
+impl Technique for Whole {
+    fn update(&mut self, gpu: &Gpu, scene: &Scene) -> Result<(), ReflectError> {
+        self.stage.world.update(gpu, scene)?;
+        self.technique.update(gpu, &self.stage)
+    }
+
+    fn begin_frame(&mut self, _gpu: &Gpu) {}
+
+    fn record(&self, frame: &mut Recorder<'_>, variant: Variant) {
+        self.stage.begin(frame, variant);
+        self.technique.record(frame, &self.stage, variant);
+        self.stage.finish(frame);
+    }
+
+    fn output(&self, gpu: &Gpu) -> Output {
+        Output {
+            frame: self.stage.layers(gpu),
+            vertices: None,
+            searched: 0,
+            triangles: None,
+            work: self.technique.work(gpu, &self.stage),
+        }
+    }
+}

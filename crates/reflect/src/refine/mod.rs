@@ -1,0 +1,59 @@
+//! Refinements: which points a search is asked for, and the triangles drawn from its answers.
+//! One file a refinement, named as its shader. Any search goes with any refinement.
+
+pub(crate) mod none;
+
+use catoptric_frame::{Triangles, VertexResult};
+
+use crate::ReflectError;
+use crate::gpu::Gpu;
+use crate::points::Efforts;
+use crate::recorder::Recorder;
+use crate::search::Search;
+use crate::spec::Options;
+use crate::stage::Stage;
+use crate::technique::Variant;
+
+/// A refinement that stands ready for one scene and image size.
+pub(crate) trait Refine {
+    /// Takes over what moved; stage and search have been updated already.
+    fn update(&mut self, gpu: &Gpu, stage: &Stage);
+
+    /// Called before each frame is recorded; `warm`: the previous frame's answers help the search.
+    fn begin_frame(&mut self, gpu: &Gpu, stage: &Stage, warm: bool);
+
+    /// Records, for one mirror, the searches and the virtual triangles.
+    fn record(
+        &self,
+        frame: &mut Recorder<'_>,
+        stage: &Stage,
+        search: &dyn Search,
+        mirror: usize,
+        variant: Variant,
+    );
+
+    /// Answers for the scene's vertices in the last frame, mirrors outer.
+    fn vertices(&self, gpu: &Gpu, stage: &Stage, search: &dyn Search) -> Vec<VertexResult>;
+
+    /// All searches of the last frame.
+    fn efforts(&self, gpu: &Gpu, stage: &Stage) -> Efforts;
+
+    /// All triangles of the last frame.
+    fn triangles(&self, gpu: &Gpu, stage: &Stage) -> Triangles;
+}
+
+/// What every refinement is made from.
+pub(crate) struct Context<'a> {
+    pub gpu: &'a Gpu,
+    /// Of the search: `depth`, `hidden`.
+    pub search_options: &'a Options,
+    #[expect(dead_code, reason = "for refinements that have options")]
+    /// The refinement's own; `None` without one.
+    pub options: Option<&'a Options>,
+    pub stage: &'a Stage,
+    /// Of `Points::group`.
+    pub points_layout: &'a wgpu::BindGroupLayout,
+}
+
+/// Makes a refinement by its name.
+pub(crate) type Make = fn(&Context<'_>) -> Result<Box<dyn Refine>, ReflectError>;

@@ -1,0 +1,104 @@
+//! What a technique is to the rest: it records frames and hands over what it drew and counted.
+
+use catoptric_frame::{Frame, Triangles, VertexResult, Work};
+use catoptric_scene::Scene;
+
+use crate::ReflectError;
+use crate::gpu::Gpu;
+use crate::recorder::Recorder;
+use crate::timing::{FrameTime, Timer};
+
+/// What a frame is rendered for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Variant {
+    /// Accuracy: all layers, and the work is counted.
+    AllLayers,
+    /// Timing: colour and depth, as an application would.
+    Color,
+}
+
+/// A technique that stands ready for one scene and image size.
+pub(crate) trait Technique {
+    /// Takes over what moved; `scene` differs from the one prepared for in positions only: eye,
+    /// vertices, mirrors.
+    ///
+    /// # Errors
+    /// As when preparing.
+    fn update(&mut self, gpu: &Gpu, scene: &Scene) -> Result<(), ReflectError>;
+
+    /// Called before each frame is recorded.
+    fn begin_frame(&mut self, gpu: &Gpu);
+
+    /// Records all passes of a frame.
+    fn record(&self, frame: &mut Recorder<'_>, variant: Variant);
+
+    /// Reads back what the last frame drew and counted; it was rendered in
+    /// [`Variant::AllLayers`].
+    fn output(&self, gpu: &Gpu) -> Output;
+}
+
+/// A rendered frame and all that was counted on the way.
+#[derive(Clone, Debug)]
+pub struct Output {
+    /// All layers.
+    pub frame: Frame,
+    /// By mirror, object, vertex; `None` for techniques that search no vertices.
+    pub vertices: Option<Vec<VertexResult>>,
+    /// Searches that were run, those of a refinement's new points included; 0 without a search.
+    pub searched: u64,
+    /// Triangles of the virtual geometry; `None` for techniques that have none.
+    pub triangles: Option<Triangles>,
+    /// Means per search that was run, or per mirror pixel.
+    pub work: Work,
+}
+
+/// A technique that stands ready to render one scene.
+pub struct Prepared<'g> {
+    gpu: &'g Gpu,
+    technique: Box<dyn Technique>,
+    timer: Timer,
+}
+
+impl<'g> Prepared<'g> {
+    pub(crate) fn new(gpu: &'g Gpu, technique: Box<dyn Technique>) -> Self {
+        Self {
+            gpu,
+            technique,
+            timer: Timer::new(gpu),
+        }
+    }
+
+    /// Renders a frame with all layers and counts the work.
+    ///
+    /// # Errors
+    /// None today; the device's own errors are bugs and panic.
+    pub fn render(&mut self) -> Result<Output, ReflectError> {
+        self.technique.begin_frame(self.gpu);
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        let mut unstamped = Timer::none();
+        let mut frame = Recorder::new(&mut encoder, &mut unstamped);
+        self.technique.record(&mut frame, Variant::AllLayers);
+        self.gpu.queue.submit([encoder.finish()]);
+        Ok(self.technique.output(self.gpu))
+    }
+
+    /// Renders a frame as an application would, colour and depth only, and times it.
+    ///
+    /// # Errors
+    /// None today; the device's own errors are bugs and panic.
+    pub fn time_frame(&mut self) -> Result<FrameTime, ReflectError> {
+        self.technique.begin_frame(self.gpu);
+        Ok(self.timer.time(self.gpu, |frame| {
+            self.technique.record(frame, Variant::Color);
+        }))
+    }
+
+    /// Takes over what moved since the last frame: eye, object vertices, mirrors. Nothing is
+    /// prepared anew that the motion does not touch.
+    ///
+    /// # Errors
+    /// A scene with other objects, triangles or mirrors than the one prepared for.
+    pub fn update(&mut self, scene: &Scene) -> Result<(), ReflectError> {
+        self.technique.update(self.gpu, scene)
+    }
+}

@@ -76,11 +76,8 @@ pub enum Command {
     },
     /// Measure techniques against the truth: error, work and time
     Compare(CompareArgs),
-    /// Run a sweep behind the papers' figures
-    Bench {
-        /// Name of the sweep
-        suite: String,
-    },
+    /// Run the sweeps behind a paper's figures (-o DIR, default `bench-SUITE`)
+    Bench(BenchArgs),
     /// Measure a suite of scenes and write one page about it (-o DIR, default `report`)
     Report {
         /// Which scenes and techniques
@@ -120,6 +117,19 @@ pub struct CompareArgs {
     /// Seconds of timing for each scene, shared by the techniques
     #[arg(long, value_name = "SECONDS", default_value_t = 6.0, value_parser = seconds)]
     pub time_budget: f64,
+}
+
+/// What `bench` is asked.
+#[derive(Clone, Debug, Args)]
+pub struct BenchArgs {
+    /// Name of the suite
+    pub suite: String,
+    /// A scene of yours (or a built-in one) in place of the suite's own, wherever that makes sense
+    #[arg(long, value_name = "SCENE")]
+    pub scene: Option<String>,
+    /// Seconds of timing in all, shared by everything that is measured; default: by the suite
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub time_budget: Option<f64>,
 }
 
 /// What `list` lists.

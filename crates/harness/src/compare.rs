@@ -22,12 +22,9 @@ pub fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
     if let Some(path) = &common.output {
         setup::check_writable(path)?;
     }
-    let setup = Setup::new(
-        &args.scenes,
-        &args.techniques,
-        Duration::from_secs_f64(args.time_budget),
-        common,
-    )?;
+    let timing = Duration::from_secs_f64(args.time_budget);
+    let wanted = setup::product(&args.scenes, &args.techniques, timing);
+    let setup = Setup::new(&wanted, common)?;
 
     let rows = crate::measure(&setup, |_, rows| match &common.output {
         Some(path) => record::write(rows, path),
@@ -62,12 +59,7 @@ pub fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
         }
         (Some(_), Format::Csv) | (None, _) => {}
     }
-    Ok(outcome(
-        &rows,
-        &values,
-        &gates,
-        setup.scenes.len() * setup.techniques.len(),
-    ))
+    Ok(outcome(&rows, &values, &gates, setup.rows()))
 }
 
 /// Whether every row came out, within its gates.

@@ -25,8 +25,8 @@ impl Gate {
             )));
         };
         let (path, bound) = (path.trim(), bound.trim());
-        let known = schema::metrics();
-        if !known.iter().any(|pattern| matches(pattern, path)) {
+        if !is_metric(path) {
+            let known = schema::metrics();
             let nearest = known.iter().max_by(|a, b| {
                 strsim::jaro_winkler(a, path).total_cmp(&strsim::jaro_winkler(b, path))
             });
@@ -71,6 +71,12 @@ impl Gate {
 /// The value at a dotted path.
 pub fn lookup<'v>(row: &'v Value, path: &str) -> Option<&'v Value> {
     path.split('.').try_fold(row, |value, name| value.get(name))
+}
+
+/// Whether a dotted path names a number of the record.
+pub fn is_metric(path: &str) -> bool {
+    let known = schema::metrics();
+    known.iter().any(|pattern| matches(pattern, path))
 }
 
 fn matches(pattern: &str, path: &str) -> bool {

@@ -15,6 +15,7 @@ mod list;
 mod measure;
 mod pictures;
 mod pipeline;
+mod plot;
 mod print;
 mod progress;
 mod provenance;
@@ -22,6 +23,7 @@ mod record;
 mod report;
 mod schema;
 mod setup;
+mod suites;
 mod table;
 
 use std::process::ExitCode;
@@ -30,7 +32,7 @@ use clap::Parser;
 
 use crate::cli::{Cli, Command};
 use crate::exit::Outcome;
-use crate::pipeline::{Rendered, Truth};
+use crate::pipeline::{Blank, Rendered, Truth};
 use crate::record::Record;
 use crate::setup::Setup;
 
@@ -54,10 +56,7 @@ fn run(Cli { command, common }: Cli) -> anyhow::Result<Outcome> {
         } => pictures::reference(&scene, truth, samples, &common),
         Command::Render { scene, technique } => pictures::render(&scene, &technique, &common),
         Command::Compare(args) => compare::run(&args, &common),
-        Command::Bench { suite } => Err(exit::bad_input(format!(
-            "no suite `{suite}`: this version has no bench suites yet; `cargo bench -p catoptric` runs the \
-             criterion benchmarks, `catoptric report --suite quick|full` measures scenes"
-        ))),
+        Command::Bench(args) => suites::run(&args, &common),
         Command::Report { suite, time_budget } => report::run(suite, time_budget, &common),
         Command::Diff { reference, test } => diff::run(&reference, &test, &common),
         Command::Doctor => doctor::run(&common),
@@ -66,75 +65,74 @@ fn run(Cli { command, common }: Cli) -> anyhow::Result<Outcome> {
 
 /// What one scene gave: its rows in the order of the techniques, and what they were made from.
 struct Measured<'a, 'g> {
-    scene: &'a catoptric_scene::Scene,
     truth: &'a Truth,
-    rendered: &'a [Result<Rendered<'g>, pipeline::Blank>],
+    rendered: &'a [Result<Rendered<'g>, Blank>],
     rows: &'a [Record],
 }
 
+/// So many techniques at most stand ready at once and are timed in turn: all of them would need
+/// the memory of all.
+const IN_TURN: usize = 8;
+
 /// Load → trace the reference → render → compare → time → record, for every scene and technique.
-/// `finished` is called after each scene with its pictures (`None` where it is not available) and
-/// with all rows so far.
+/// `finished` is called after each scene, or each [`IN_TURN`] techniques of it, with the pictures
+/// (`None` where the scene is not available) and with all rows so far.
 fn measure(
     setup: &Setup,
     mut finished: impl FnMut(Option<Measured<'_, '_>>, &[Record]) -> anyhow::Result<()>,
 ) -> anyhow::Result<Vec<Record>> {
     let mut rows: Vec<Record> = Vec::new();
-    for loaded in &setup.scenes {
+    for job in &setup.jobs {
         if pipeline::interrupted() {
             break;
         }
-        let scene = match loaded {
-            (_, Ok(scene)) => scene,
-            (name, Err(reason)) => {
-                rows.extend(setup.unavailable(name, reason));
+        let scene = match &job.scene {
+            Ok(scene) => scene,
+            Err(reason) => {
+                rows.extend(setup.unavailable(job, reason));
                 finished(None, &rows)?;
                 continue;
             }
         };
         let doing = |what: &str| setup.progress.doing(format!("{}: {what}", scene.name));
-
         doing("tracing the reference");
         let truth = pipeline::trace_reference(scene, setup.bounces)?;
 
-        let mut rendered = Vec::new();
-        for spec in &setup.techniques {
-            doing(&format!("rendering {spec}"));
-            rendered.push(pipeline::render(&setup.gpu, spec, scene));
-            setup.progress.step();
-        }
+        for techniques in job.techniques.chunks(IN_TURN) {
+            if pipeline::interrupted() && !rows.is_empty() {
+                break;
+            }
+            let mut rendered = Vec::new();
+            for spec in techniques {
+                doing(&format!("rendering {spec}"));
+                rendered.push(pipeline::render(&setup.gpu, spec, scene));
+                setup.progress.step();
+            }
 
-        let mut compared = Vec::new();
-        for (spec, row) in setup.techniques.iter().zip(&rendered) {
-            doing(&format!("comparing {spec}"));
-            let output = row.as_ref().map(|row| &row.output).map_err(Clone::clone);
-            compared.push(output.and_then(|output| pipeline::compare(scene, &truth, output)));
-        }
+            let mut compared = Vec::new();
+            for (spec, row) in techniques.iter().zip(&rendered) {
+                doing(&format!("comparing {spec}"));
+                let output = row.as_ref().map(|row| &row.output).map_err(Clone::clone);
+                compared.push(output.and_then(|output| pipeline::compare(scene, &truth, output)));
+            }
 
-        doing("timing");
-        let timed = pipeline::time(&mut rendered, setup.time_budget);
+            doing("timing");
+            let share = techniques.len() as f64 / job.techniques.len() as f64;
+            let timed = pipeline::time(&mut rendered, job.timing.mul_f64(share));
 
-        let first = rows.len();
-        for (((spec, rendered), compared), samples) in setup
-            .techniques
-            .iter()
-            .zip(&rendered)
-            .zip(compared)
-            .zip(timed)
-        {
-            rows.push(setup.record(scene, spec, rendered, compared, samples));
-            setup.progress.step();
-        }
-        let (truth, rendered) = (&truth, rendered.as_slice());
-        finished(
-            Some(Measured {
-                scene,
-                truth,
-                rendered,
+            let first = rows.len();
+            let parts = techniques.iter().zip(&rendered).zip(compared).zip(timed);
+            for (((spec, rendered), compared), samples) in parts {
+                rows.push(setup.record(job, scene, spec, rendered, compared, samples));
+                setup.progress.step();
+            }
+            let measured = Measured {
+                truth: &truth,
+                rendered: &rendered,
                 rows: &rows[first..],
-            }),
-            &rows,
-        )?;
+            };
+            finished(Some(measured), &rows)?;
+        }
     }
     setup.progress.finish();
     Ok(rows)

@@ -12,7 +12,7 @@ use glam::DVec2;
 
 use crate::exit::bad_input;
 use crate::measure::{self, Samples};
-use crate::record::{AgainstFull, Meta, Raw, Record, Status, Times, Wall, Work};
+use crate::record::{AgainstFull, Raw, Record, Status, Times, Wall, Work};
 
 /// Set by Ctrl-C: what is finished is kept, what is not begun is left out.
 pub static INTERRUPTED: AtomicBool = AtomicBool::new(false);
@@ -22,17 +22,12 @@ pub fn interrupted() -> bool {
     INTERRUPTED.load(Ordering::Relaxed)
 }
 
-/// A scene that was asked for: its name, and the scene or why it cannot be had here.
-pub type Loaded = (String, Result<Scene, String>);
-
 /// Loads a scene. One whose model is missing is no error but has nothing to show, with a reason;
 /// anything else that is wrong is the user's to mend.
-pub fn load(name: &str, options: &LoadOptions) -> anyhow::Result<Loaded> {
+pub fn load(name: &str, options: &LoadOptions) -> anyhow::Result<Result<Scene, String>> {
     match catoptric_scene::open(name, options) {
-        Ok(scene) => Ok((name.to_owned(), Ok(scene))),
-        Err(error @ SceneError::MissingModel { .. }) => {
-            Ok((name.to_owned(), Err(error.to_string())))
-        }
+        Ok(scene) => Ok(Ok(scene)),
+        Err(error @ SceneError::MissingModel { .. }) => Ok(Err(error.to_string())),
         Err(error) => Err(error.into()),
     }
 }
@@ -242,13 +237,4 @@ pub fn one_line(error: &dyn std::error::Error) -> String {
         .map(ToString::to_string)
         .collect::<Vec<_>>()
         .join(": ")
-}
-
-/// Where a row's numbers come from.
-pub fn meta(base: &Meta, scene: Option<&Scene>) -> Meta {
-    Meta {
-        scene_hash: scene.map(|scene| scene.hash.clone()),
-        scene_why: scene.map(|scene| scene.why.clone()),
-        ..base.clone()
-    }
 }

@@ -6,7 +6,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use crate::record::Meta;
 
 /// Provenance of this run, before a scene is known.
-pub fn meta(bounces: u32, time_budget_s: Option<f64>) -> Meta {
+pub fn meta(bounces: u32) -> Meta {
     Meta {
         command: command_line(std::env::args()),
         revision: revision(),
@@ -15,7 +15,7 @@ pub fn meta(bounces: u32, time_budget_s: Option<f64>) -> Meta {
         scene_hash: None,
         scene_why: None,
         bounces,
-        time_budget_s,
+        time_budget_s: None,
         notes: Vec::new(),
     }
 }

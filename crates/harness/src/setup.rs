@@ -11,52 +11,81 @@ use catoptric_scene::{LoadOptions, Scene};
 use crate::cli::Common;
 use crate::exit::bad_input;
 use crate::measure::Samples;
-use crate::pipeline::{self, Blank, Compared, Loaded, Rendered};
+use crate::pipeline::{self, Blank, Compared, Rendered};
 use crate::progress::Progress;
 use crate::provenance;
 use crate::record::{Adapter, Meta, Record, Status};
 
-/// A checked request: scenes × techniques on an adapter.
+/// A scene that is asked for, and what to measure on it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wanted {
+    /// Built-in name or scene file.
+    pub scene: String,
+    /// Picture size; the command line's goes before it, the scene's own comes after it.
+    pub resolution: Option<[u32; 2]>,
+    /// Names of techniques, in the order of the rows.
+    pub techniques: Vec<String>,
+    /// Timing, shared by the techniques.
+    pub timing: Duration,
+}
+
+/// Every scene with every technique, each scene timed for `timing`.
+pub fn product(scenes: &[String], techniques: &[String], timing: Duration) -> Vec<Wanted> {
+    let wanted = |scene: &String| Wanted {
+        scene: scene.clone(),
+        resolution: None,
+        techniques: techniques.to_vec(),
+        timing,
+    };
+    scenes.iter().map(wanted).collect()
+}
+
+/// A checked [`Wanted`].
+pub struct Job {
+    /// As asked for.
+    pub name: String,
+    /// The scene, or why it cannot be had here.
+    pub scene: Result<Scene, String>,
+    /// In the order of the rows.
+    pub techniques: Vec<Spec>,
+    /// Timing, shared by the techniques.
+    pub timing: Duration,
+    /// Picture size asked for.
+    resolution: Option<[u32; 2]>,
+}
+
+/// A checked request: scenes and techniques on an adapter.
 pub struct Setup {
     /// In the order asked for.
-    pub scenes: Vec<Loaded>,
-    /// In the order asked for.
-    pub techniques: Vec<Spec>,
+    pub jobs: Vec<Job>,
     /// What renders.
     pub gpu: Gpu,
     /// Limit of the truth `full`.
     pub bounces: u32,
-    /// Timing for each scene, shared by the techniques.
-    pub time_budget: Duration,
     /// What is said while working.
     pub progress: Progress,
     meta: Meta,
-    resolution: Option<[u32; 2]>,
 }
 
 impl Setup {
     /// Loads scenes, parses techniques, opens the adapter: the input's faults first.
-    pub fn new(
-        scenes: &[String],
-        techniques: &[String],
-        time_budget: Duration,
-        common: &Common,
-    ) -> anyhow::Result<Self> {
-        let techniques = techniques
+    pub fn new(wanted: &[Wanted], common: &Common) -> anyhow::Result<Self> {
+        let techniques = wanted
             .iter()
-            .map(|text| parse(text))
-            .collect::<anyhow::Result<Vec<_>>>()?;
-        let options = load_options(common);
-        let scenes = scenes
+            .map(|wanted| wanted.techniques.iter().map(|text| parse(text)).collect())
+            .collect::<anyhow::Result<Vec<Vec<Spec>>>>()?;
+        let jobs = wanted
             .iter()
-            .map(|name| pipeline::load(name, &options))
+            .zip(techniques)
+            .map(|(wanted, techniques)| Job::load(wanted, techniques, common))
             .collect::<anyhow::Result<Vec<_>>>()?;
         let gpu = open_gpu(common)?;
         let limit = gpu.info().max_image;
-        for scene in scenes.iter().filter_map(|(_, scene)| scene.as_ref().ok()) {
+        for scene in jobs.iter().filter_map(|job| job.scene.as_ref().ok()) {
             pipeline::check_size(pipeline::size(scene), limit, "this adapter")?;
         }
-        let progress = Progress::new(2 * scenes.len() * techniques.len(), common.quiet);
+        let rows: usize = jobs.iter().map(|job| job.techniques.len()).sum();
+        let progress = Progress::new(2 * rows, common.quiet);
         if gpu.info().software {
             let name = &gpu.info().name;
             progress.remark(&format!(
@@ -65,42 +94,45 @@ impl Setup {
         }
         keep_what_is_finished(&progress);
         Ok(Self {
-            scenes,
-            techniques,
+            jobs,
             gpu,
             bounces: common.bounces,
-            time_budget,
             progress,
-            meta: provenance::meta(common.bounces, Some(time_budget.as_secs_f64())),
-            resolution: common.resolution,
+            meta: provenance::meta(common.bounces),
         })
     }
 
+    /// How many rows were asked for.
+    pub fn rows(&self) -> usize {
+        self.jobs.iter().map(|job| job.techniques.len()).sum()
+    }
+
     /// Rows of a scene that cannot be had.
-    pub fn unavailable(&self, name: &str, reason: &str) -> Vec<Record> {
+    pub fn unavailable(&self, job: &Job, reason: &str) -> Vec<Record> {
         let row = |spec: &Spec| {
-            let meta = pipeline::meta(&self.meta, None);
+            let meta = self.meta.of_job(job, None);
             // A scene that could not be loaded has no picture size of its own to tell.
-            let size = self.resolution.unwrap_or(DEFAULT_RESOLUTION);
+            let size = job.resolution.unwrap_or(DEFAULT_RESOLUTION);
             Record {
                 adapter: Some(self.adapter()),
-                ..Record::empty(name, &spec.to_string(), size, meta)
+                ..Record::empty(&job.name, &spec.to_string(), size, meta)
             }
             .without(Status::NotApplicable, reason)
         };
-        self.techniques.iter().map(row).collect()
+        job.techniques.iter().map(row).collect()
     }
 
     /// The row of a technique, whatever became of it.
     pub fn record(
         &self,
+        job: &Job,
         scene: &Scene,
         spec: &Spec,
         rendered: &Result<Rendered<'_>, Blank>,
         compared: Result<Compared, Blank>,
         samples: Option<Result<Samples, Blank>>,
     ) -> Record {
-        let meta = pipeline::meta(&self.meta, Some(scene));
+        let meta = self.meta.of_job(job, Some(scene));
         let row = Record::empty(&scene.name, &spec.to_string(), pipeline::size(scene), meta);
         let row = Record {
             adapter: Some(self.adapter()),
@@ -124,6 +156,34 @@ impl Setup {
             driver: info.driver.clone(),
             backend: info.backend.clone(),
             software: info.software,
+        }
+    }
+}
+
+impl Job {
+    fn load(wanted: &Wanted, techniques: Vec<Spec>, common: &Common) -> anyhow::Result<Self> {
+        let resolution = common.resolution.or(wanted.resolution);
+        let options = LoadOptions {
+            resolution,
+            ..load_options(common)
+        };
+        Ok(Self {
+            name: wanted.scene.clone(),
+            scene: pipeline::load(&wanted.scene, &options)?,
+            techniques,
+            timing: wanted.timing,
+            resolution,
+        })
+    }
+}
+
+impl Meta {
+    fn of_job(&self, job: &Job, scene: Option<&Scene>) -> Self {
+        Self {
+            scene_hash: scene.map(|scene| scene.hash.clone()),
+            scene_why: scene.map(|scene| scene.why.clone()),
+            time_budget_s: Some(job.timing.as_secs_f64()),
+            ..self.clone()
         }
     }
 }

@@ -145,7 +145,7 @@ fn bad_options_are_refused() {
     assert!(compare(&["--against", "no-such-record.json"]).contains("no-such-record.json"));
     compare(&["--time-budget", "-1"]);
     compare(&["--format", "xml"]);
-    assert!(refused(&["bench", "search"]).contains("no suite"));
+    assert!(refused(&["bench", "serach"]).contains("did you mean `search`?"));
     assert!(
         refused(&["reference", "sphere-table", "--samples", "0", "-o", "x.exr"])
             .contains("samples")

@@ -235,6 +235,41 @@ fn a_report_is_one_folder_that_needs_nothing_else() {
 }
 
 #[test]
+fn a_suite_on_a_scene_of_ones_own_is_one_folder() {
+    if !gpu_or_skip() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("out");
+    let to = path.to_string_lossy();
+    let args = ["bench", "search", "--scene", "sphere-square", "--quiet"];
+    let more = ["--time-budget", "0.1", "-o", &to];
+    let output = catoptric(&[args.as_slice(), &more, SIZE.as_slice()].concat());
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let page = std::fs::read_to_string(path.join("index.html")).expect("a page");
+    let named = |attribute: &str| -> Vec<String> {
+        let start = format!("{attribute}=\"");
+        let parts = page.split(&start).skip(1);
+        let found = parts.filter_map(|rest| rest.split('"').next());
+        found
+            .filter(|name| !name.starts_with('#'))
+            .map(str::to_owned)
+            .collect()
+    };
+    let files = [named("src"), named("href")].concat();
+    assert!(files.len() > 10, "{files:?}");
+    for file in files {
+        assert!(path.join(&file).is_file(), "{file}");
+    }
+    assert!(page.contains("bench search --scene sphere-square"));
+    let rows: Value =
+        serde_json::from_slice(&std::fs::read(path.join("record.json")).expect("a record"))
+            .expect("JSON");
+    let violations = schema::violations(&schema::records(), &rows);
+    assert_eq!(violations, Vec::<String>::new());
+}
+
+#[test]
 fn doctor_tests_the_clock() {
     if !gpu_or_skip() {
         return;

@@ -3,11 +3,10 @@
 //! Measuring writes `record.json` and pictures into the folder, after every scene; the page is
 //! made from those alone, so that the same record gives the same bytes.
 
-mod page;
-mod pictures;
-mod plot;
+pub mod page;
+pub mod pictures;
 mod views;
-mod words;
+pub mod words;
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -66,18 +65,14 @@ pub fn run(suite: SuiteArg, time_budget: Option<f64>, common: &Common) -> anyhow
         }
     };
     let techniques = TECHNIQUES.map(str::to_owned);
-    let setup = Setup::new(
-        &scenes,
-        &techniques,
-        Duration::from_secs_f64(time_budget.unwrap_or(budget)),
-        &common,
-    )?;
+    let timing = Duration::from_secs_f64(time_budget.unwrap_or(budget));
+    let setup = Setup::new(&setup::product(&scenes, &techniques, timing), &common)?;
     make_folder(&folder)?;
 
     let record_path = folder.join("record.json");
     let rows = crate::measure(&setup, |measured, rows| {
         if let Some(measured) = measured {
-            pictures::write(&measured, &folder)?;
+            pictures::write(&measured, &folder, |_| true)?;
         }
         record::write(rows, &record_path)
     })?;
@@ -94,13 +89,11 @@ pub fn run(suite: SuiteArg, time_budget: Option<f64>, common: &Common) -> anyhow
             rows.len()
         );
     }
-    Ok(
-        if failed > 0 || rows.len() < scenes.len() * techniques.len() {
-            Outcome::FellShort
-        } else {
-            Outcome::Done
-        },
-    )
+    Ok(if failed > 0 || rows.len() < setup.rows() {
+        Outcome::FellShort
+    } else {
+        Outcome::Done
+    })
 }
 
 /// Names of the built-in scenes whose models are here.
@@ -114,7 +107,7 @@ fn available(common: &Common) -> Vec<String> {
 }
 
 /// Makes the report's folder; where an earlier report is in it, without that one's pictures.
-fn make_folder(folder: &Path) -> anyhow::Result<()> {
+pub fn make_folder(folder: &Path) -> anyhow::Result<()> {
     let unwritable = |error: std::io::Error| {
         bad_input(format!("cannot write into {}: {error}", folder.display()))
     };

@@ -8,14 +8,21 @@ use askama::Template;
 
 use crate::record::{Record, Status};
 
-use super::views::{self, Fact, SUMMARY, Scene, SummaryRow};
-use super::{pictures, plot, words};
+use super::views::{self, SUMMARY, Scene, SummaryRow};
+use super::{pictures, words};
+
+/// A name and what belongs to it.
+pub struct Fact {
+    /// Name.
+    pub name: String,
+    /// Value.
+    pub value: String,
+}
 
 /// Everything that the template shows.
 #[derive(Template)]
 #[template(path = "report.html")]
 struct Page<'r> {
-    techniques: Vec<Fact>,
     lead: Vec<String>,
     hero: Option<Hero<'r>>,
     headings: &'static [(&'static str, &'static str)],
@@ -40,55 +47,48 @@ struct Hero<'r> {
 /// Writes `index.html` into the report's folder.
 pub fn write(rows: &[Record], folder: &Path) -> anyhow::Result<PathBuf> {
     let path = folder.join("index.html");
+    put(&path, &render(rows)?)?;
+    Ok(path)
+}
+
+/// Replaces a file by this text: it is there whole or not at all.
+pub fn put(path: &Path, text: &str) -> anyhow::Result<()> {
+    let folder = path.parent().unwrap_or(Path::new("."));
     let unwritable = || format!("cannot write {}", path.display());
     let mut file = tempfile::NamedTempFile::new_in(folder).with_context(unwritable)?;
-    file.write_all(render(rows)?.as_bytes())
-        .with_context(unwritable)?;
-    file.persist(&path).with_context(unwritable)?;
-    Ok(path)
+    file.write_all(text.as_bytes()).with_context(unwritable)?;
+    file.persist(path).with_context(unwritable)?;
+    Ok(())
 }
 
 /// The page as text.
 pub fn render(rows: &[Record]) -> anyhow::Result<String> {
     let techniques = views::techniques(rows);
-    let scenes = views::scenes(rows, &techniques);
+    let scenes = views::scenes(rows, &techniques)?;
     let hero = scenes.iter().find_map(|scene| {
         Some(Hero {
             scene,
             technique: scene.techniques.first()?,
         })
     });
-    let adapter = rows.iter().find_map(|row| row.adapter.as_ref());
     let page = Page {
         lead: words::lead(rows, &techniques),
         hero,
         headings: &SUMMARY,
         summary: views::summary(rows, &techniques),
-        scatter: plot::error_against_time(&views::points(rows, &techniques))?,
+        scatter: views::error_against_time(rows, &techniques).inline()?,
         scenes: &scenes,
         angle_labels: &pictures::ANGLE_LABELS,
         scale: pictures::SCALE,
         coverage: coverage_legend(),
-        software: adapter
-            .filter(|adapter| adapter.software)
-            .map(|adapter| adapter.name.clone()),
+        software: software(rows),
         environment: environment(rows),
-        command: rows
-            .first()
-            .map(|row| row.meta.command.clone())
-            .unwrap_or_default(),
+        command: command(rows),
         wall_clock: rows.iter().any(|row| {
             row.time_ms
                 .as_ref()
                 .is_some_and(|times| times.frame.is_none())
         }),
-        techniques: techniques
-            .iter()
-            .map(|name| Fact {
-                name: name.clone(),
-                value: views::color(name, &techniques).to_owned(),
-            })
-            .collect(),
     };
     page.render().context("filling the report's template")
 }
@@ -108,7 +108,21 @@ fn coverage_legend() -> Vec<Fact> {
         .collect()
 }
 
-fn environment(rows: &[Record]) -> Vec<Fact> {
+/// The adapter's name where a CPU plays the GPU.
+pub fn software(rows: &[Record]) -> Option<String> {
+    let adapter = rows.iter().find_map(|row| row.adapter.as_ref());
+    let adapter = adapter.filter(|adapter| adapter.software);
+    adapter.map(|adapter| adapter.name.clone())
+}
+
+/// The command line of the run.
+pub fn command(rows: &[Record]) -> String {
+    let row = rows.first();
+    row.map(|row| row.meta.command.clone()).unwrap_or_default()
+}
+
+/// What measured, with which program, on which scenes.
+pub fn environment(rows: &[Record]) -> Vec<Fact> {
     let mut facts = Vec::new();
     let mut fact = |name: &str, value: String| {
         facts.push(Fact {
@@ -177,7 +191,7 @@ mod tests {
         for text in [
             "98.1 %",
             "no such model",
-            "pictures/a-scene/linear-residual-cross.angle.png",
+            "pictures/a-scene-640x480/linear-residual-cross.angle.png",
             "prefers-color-scheme",
         ] {
             assert!(html.contains(text), "{text}");

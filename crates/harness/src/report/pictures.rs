@@ -7,6 +7,7 @@ use catoptric_frame::{Frame, Image, write_png, write_png_rgb8};
 use catoptric_metrics::{Colormap, MapKind, color_bar, colorize, colorize_coverage, error_map};
 
 use crate::Measured;
+use crate::record::Record;
 
 /// Folder of all pictures, inside the report's.
 pub const FOLDER: &str = "pictures";
@@ -43,10 +44,11 @@ pub struct Names {
     pub coverage: String,
 }
 
-/// Names of a row's pictures.
-pub fn names(scene: &str, technique: &str) -> Names {
-    let folder = format!("{FOLDER}/{}", slug(scene));
-    let technique = slug(technique);
+/// Names of a row's pictures. One folder a scene and size, so that a sweep over sizes keeps all.
+pub fn names(row: &Record) -> Names {
+    let [width, height] = row.resolution;
+    let folder = format!("{FOLDER}/{}-{width}x{height}", slug(&row.scene));
+    let technique = slug(&row.technique);
     Names {
         reference: format!("{folder}/reference.png"),
         full: format!("{folder}/reference-full.png"),
@@ -65,22 +67,27 @@ pub fn slug(name: &str) -> String {
         .join("-")
 }
 
-/// Writes the pictures of one scene.
-pub fn write(measured: &Measured<'_, '_>, folder: &Path) -> anyhow::Result<()> {
+/// Writes the pictures of those rows of one scene that are to be shown.
+pub fn write(
+    measured: &Measured<'_, '_>,
+    folder: &Path,
+    shown: impl Fn(&Record) -> bool,
+) -> anyhow::Result<()> {
     let at = |name: &str| folder.join(name);
-    let reference = names(&measured.scene.name, "");
-    let parent = at(&reference.reference);
-    let parent = parent.parent().unwrap_or(folder);
-    std::fs::create_dir_all(parent).with_context(|| format!("cannot make {}", parent.display()))?;
-    write_png(&measured.truth.first.color, at(&reference.reference))?;
-    write_png(&measured.truth.full.color, at(&reference.full))?;
-    write_png_rgb8(
-        &color_bar(Colormap::Magma, [256, 12], ANGLE_LABELS.len() as u32),
-        at(SCALE),
-    )?;
-    for (rendered, row) in measured.rendered.iter().zip(measured.rows) {
+    let rows = measured.rendered.iter().zip(measured.rows);
+    for (rendered, row) in rows.filter(|(_, row)| shown(row)) {
         let Ok(rendered) = rendered else { continue };
-        let names = names(&row.scene, &row.technique);
+        let names = names(row);
+        if let Some(parent) = at(&names.reference).parent() {
+            std::fs::create_dir_all(parent)
+                .with_context(|| format!("cannot make {}", parent.display()))?;
+        }
+        write_png(&measured.truth.first.color, at(&names.reference))?;
+        write_png(&measured.truth.full.color, at(&names.full))?;
+        write_png_rgb8(
+            &color_bar(Colormap::Magma, [256, 12], ANGLE_LABELS.len() as u32),
+            at(SCALE),
+        )?;
         let frame = &rendered.output.frame;
         write_png(&frame.color, at(&names.technique))?;
         write_png_rgb8(&angle_map(&measured.truth.first, frame)?, at(&names.angle))?;

@@ -1,19 +1,12 @@
 //! The record as the page's template wants it: text that is ready to be shown.
 
+use crate::plot::{Axis, Plot, Point, SERIES, Scale, Series, TALL};
 use crate::print::significant;
 use crate::record::{Record, Status};
 
+use super::page::Fact;
 use super::pictures::{self, Names};
-use super::plot::{Point, SERIES};
 use super::words::{self, count, or_dash, percent, share};
-
-/// A name and what belongs to it.
-pub struct Fact {
-    /// Name.
-    pub name: String,
-    /// Value.
-    pub value: String,
-}
 
 /// A line of the summary.
 pub struct SummaryRow {
@@ -86,6 +79,8 @@ pub struct Scene {
     pub techniques: Vec<Technique>,
     /// Techniques without, and why.
     pub blanks: Vec<Fact>,
+    /// Every timing sample, as a plot.
+    pub samples: Option<String>,
     /// Whether the techniques' times differ.
     pub differences: Vec<String>,
     /// The truth `full`, where it differs.
@@ -204,7 +199,7 @@ fn cells(row: &Record) -> Vec<String> {
 }
 
 /// Sections of the page, by scene.
-pub fn scenes(rows: &[Record], techniques: &[String]) -> Vec<Scene> {
+pub fn scenes(rows: &[Record], techniques: &[String]) -> anyhow::Result<Vec<Scene>> {
     distinct(rows.iter().map(|row| row.scene.as_str()))
         .iter()
         .map(|name| {
@@ -220,7 +215,7 @@ pub fn scenes(rows: &[Record], techniques: &[String]) -> Vec<Scene> {
         .collect()
 }
 
-fn scene(name: &str, rows: &[&Record], techniques: &[String]) -> Scene {
+fn scene(name: &str, rows: &[&Record], techniques: &[String]) -> anyhow::Result<Scene> {
     let measured: Vec<&Record> = rows
         .iter()
         .copied()
@@ -248,7 +243,12 @@ fn scene(name: &str, rows: &[&Record], techniques: &[String]) -> Scene {
             .is_some_and(|(full, first)| (full - first).abs() > 1e-4)
     });
     let [width, height] = rows.first().map_or([0, 0], |row| row.resolution);
-    Scene {
+    let samples = match measured.as_slice() {
+        [] => None,
+        measured => distribution(measured, techniques).inline()?,
+    };
+    Ok(Scene {
+        samples,
         name: name.to_owned(),
         anchor: pictures::slug(name),
         why: rows
@@ -263,8 +263,11 @@ fn scene(name: &str, rows: &[&Record], techniques: &[String]) -> Scene {
             .collect(),
         blanks: blanks.collect(),
         differences: differences.unwrap_or_default(),
-        full: differs.then(|| pictures::names(name, "").full),
-    }
+        full: rows
+            .first()
+            .filter(|_| differs)
+            .map(|row| pictures::names(row).full),
+    })
 }
 
 fn technique(row: &Record, techniques: &[String]) -> Technique {
@@ -272,7 +275,7 @@ fn technique(row: &Record, techniques: &[String]) -> Technique {
     Technique {
         name: row.technique.clone(),
         color: color(&row.technique, techniques),
-        names: pictures::names(&row.scene, &row.technique),
+        names: pictures::names(row),
         sentences: words::sentences(row),
         facts: facts(row),
         passes: times
@@ -409,29 +412,89 @@ fn facts(row: &Record) -> Vec<Fact> {
     facts
 }
 
-/// Points of the scatter plot.
-pub fn points(rows: &[Record], techniques: &[String]) -> Vec<Point> {
-    rows.iter()
-        .filter_map(|row| {
-            let times = row.time_ms.as_ref()?;
-            let time = times.frame.map_or(times.wall.median, |frame| frame.median);
-            let error = row.angular_error_deg?.p50;
-            let series = techniques
-                .iter()
-                .position(|other| *other == row.technique)?;
-            let label = format!(
+/// Median angular error against the time of a frame, a point a row; only the first technique's
+/// points are named, as those of a scene lie side by side.
+pub fn error_against_time(rows: &[Record], techniques: &[String]) -> Plot {
+    let point = |row: &Record| {
+        let times = row.time_ms.as_ref()?;
+        let x = times.frame.map_or(times.wall.median, |frame| frame.median);
+        let y = row.angular_error_deg?.p50;
+        Some(Point {
+            x,
+            y,
+            name: if techniques.first() == Some(&row.technique) {
+                row.scene.clone()
+            } else {
+                String::new()
+            },
+            label: format!(
                 "{}, {}: {} ms, {}°",
                 row.scene,
                 row.technique,
-                significant(time),
-                significant(error)
-            );
-            Some(Point {
-                series,
-                label,
-                time,
-                error,
-            })
+                significant(x),
+                significant(y)
+            ),
         })
-        .collect()
+    };
+    let series = |technique: &String| Series {
+        label: technique.clone(),
+        points: rows
+            .iter()
+            .filter(|row| row.technique == *technique)
+            .filter_map(point)
+            .collect(),
+    };
+    Plot {
+        title: "Median angular error against the time of a frame".to_owned(),
+        x: Axis::log("time of a frame (ms)"),
+        y: Axis::log("median angular error (°)"),
+        series: techniques.iter().map(series).collect(),
+        height: TALL,
+        joined: false,
+    }
+}
+
+/// Every timing sample of a scene's rows: how steady the times are, and whether they overlap.
+pub fn distribution(rows: &[&Record], techniques: &[String]) -> Plot {
+    let samples = |technique: &String| {
+        let row = rows.iter().find(|row| row.technique == *technique);
+        let raw = row.and_then(|row| row.raw.as_ref());
+        raw.map_or(&[][..], |raw| match raw.frame_ms.is_empty() {
+            true => &raw.wall_ms,
+            false => &raw.frame_ms,
+        })
+    };
+    let series = techniques.iter().enumerate().map(|(place, technique)| {
+        let level = (techniques.len() - 1 - place) as f64;
+        let points = samples(technique).iter().zip(0..).map(|(time, sample)| {
+            // Samples step up and down a little, so that equal times are seen apart.
+            let aside = [0.0, 0.2, -0.1, 0.1, -0.2][sample % 5];
+            Point {
+                x: *time,
+                y: level + aside,
+                name: String::new(),
+                label: format!(
+                    "{technique}, sample {}: {} ms",
+                    sample + 1,
+                    significant(*time)
+                ),
+            }
+        });
+        Series {
+            label: technique.clone(),
+            points: points.collect(),
+        }
+    });
+    let series: Vec<Series> = series.collect();
+    Plot {
+        title: "Every timing sample".to_owned(),
+        x: Axis::linear("time of a frame (ms), every sample"),
+        y: Axis {
+            label: String::new(),
+            scale: Scale::Names(vec![String::new(); series.len()]),
+        },
+        height: 76 + 30 * series.len() as u32,
+        series,
+        joined: false,
+    }
 }

@@ -41,7 +41,7 @@ pub fn share(value: Option<f64>) -> String {
 }
 
 /// Three significant digits: enough for a sentence.
-fn short(value: f64) -> String {
+pub fn short(value: f64) -> String {
     if !(1e-4..1000.0).contains(&value.abs()) {
         return significant(value);
     }

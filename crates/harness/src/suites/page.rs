@@ -1,0 +1,226 @@
+//! A suite's page: figures, records and the names of pictures in; `index.html`, a plot and a
+//! table a figure out.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+use askama::Template;
+use serde_json::Value;
+
+use crate::cli::Format;
+use crate::plot::{Axis, Plot, Point as Mark, Scale, Series as Marks, TALL};
+use crate::print::significant;
+use crate::record::{Record, Status};
+use crate::report::{page, pictures, words};
+use crate::table::Table;
+
+use super::{Figure, Picture, Quote, Results, Suite};
+
+/// Folder of the plots and tables, inside the page's.
+const FOLDER: &str = "figures";
+
+#[derive(Template)]
+#[template(path = "bench.html")]
+struct Page<'p> {
+    suite: &'p Suite,
+    figures: Vec<Shown<'p>>,
+    blanks: Vec<String>,
+    angle_labels: &'static [&'static str],
+    scale: &'static str,
+    software: Option<String>,
+    environment: Vec<page::Fact>,
+    command: String,
+    measured: usize,
+}
+
+/// A figure as the template wants it.
+struct Shown<'p> {
+    figure: &'p Figure,
+    analysis: Vec<String>,
+    plots: Vec<Diagram>,
+    quotes: Vec<Quotation<'p>>,
+    table: Table,
+    csv: String,
+    rows: Vec<PictureRow<'p>>,
+    own: Vec<&'p Picture>,
+}
+
+/// A plot, and the file it is in.
+struct Diagram {
+    title: String,
+    svg: String,
+    path: String,
+}
+
+/// A paper's number beside ours.
+struct Quotation<'p> {
+    quote: &'p Quote,
+    ours: String,
+}
+
+/// Pictures of a measured point.
+struct PictureRow<'p> {
+    row: &'p Record,
+    names: pictures::Names,
+}
+
+/// Writes `index.html` and the folder of plots and tables.
+pub fn write(
+    suite: &Suite,
+    figures: &[Figure],
+    rows: &[Record],
+    own: &[Picture],
+    folder: &Path,
+) -> anyhow::Result<PathBuf> {
+    let values: Vec<(Record, Value)> = rows
+        .iter()
+        .map(|row| (row.clone(), row.to_value()))
+        .collect();
+    let files = folder.join(FOLDER);
+    std::fs::create_dir_all(&files).with_context(|| format!("cannot make {}", files.display()))?;
+    let shown = figures
+        .iter()
+        .map(|figure| show(figure, &values, own))
+        .collect::<anyhow::Result<Vec<_>>>()?;
+    for figure in &shown {
+        page::put(&folder.join(&figure.csv), &figure.table.write(Format::Csv))?;
+    }
+    for (figure, shown) in figures.iter().zip(&shown) {
+        let plots = plots(figure, &Results::new(figure, &values));
+        for (plot, diagram) in plots.iter().zip(&shown.plots) {
+            let file = plot.file()?.unwrap_or_default();
+            page::put(&folder.join(&diagram.path), &file)?;
+        }
+    }
+    let blanks = rows.iter().filter(|row| row.status != Status::Ok);
+    let page = Page {
+        suite,
+        figures: shown,
+        blanks: blanks
+            .map(|row| {
+                let reason = row.reason.as_deref().unwrap_or_default();
+                format!("{}, {}: {reason}", row.scene, row.technique)
+            })
+            .collect(),
+        angle_labels: &pictures::ANGLE_LABELS,
+        scale: pictures::SCALE,
+        software: page::software(rows),
+        environment: page::environment(rows),
+        command: page::command(rows),
+        measured: rows.len(),
+    };
+    let path = folder.join("index.html");
+    let html = page.render().context("filling the page's template")?;
+    page::put(&path, &html)?;
+    Ok(path)
+}
+
+fn show<'p>(
+    figure: &'p Figure,
+    values: &'p [(Record, Value)],
+    own: &'p [Picture],
+) -> anyhow::Result<Shown<'p>> {
+    let results = Results::new(figure, values);
+    let mut diagrams = Vec::new();
+    for (plot, quantity) in plots(figure, &results).iter().zip(&figure.quantities) {
+        let Some(svg) = plot.inline()? else { continue };
+        let name = pictures::slug(quantity.path);
+        diagrams.push(Diagram {
+            title: plot.title.clone(),
+            svg,
+            path: format!("{FOLDER}/{}.{name}.svg", figure.anchor),
+        });
+    }
+    let quotes = figure.quotes.iter().map(|quote| Quotation {
+        quote,
+        ours: quote.ours.map_or_else(String::new, |ask| {
+            let answer = results.answer(&ask);
+            answer.map_or_else(
+                || "not measured".to_owned(),
+                |value| format!("{} {}", words::short(value), ask.unit),
+            )
+        }),
+    });
+    let points = figure.series.iter().flat_map(|series| &series.points);
+    let pictured = points.filter(|point| point.picture);
+    let rows = pictured.filter_map(|point| results.row(point));
+    let rows = rows.filter(|row| row.status == Status::Ok);
+    Ok(Shown {
+        figure,
+        analysis: (figure.analysis)(&results),
+        plots: diagrams,
+        quotes: quotes.collect(),
+        table: table(figure, &results),
+        csv: format!("{FOLDER}/{}.csv", figure.anchor),
+        rows: rows
+            .map(|row| PictureRow {
+                row,
+                names: pictures::names(row),
+            })
+            .collect(),
+        own: own
+            .iter()
+            .filter(|picture| picture.figure == figure.anchor)
+            .collect(),
+    })
+}
+
+/// The figure's plots that have something to show.
+fn plots(figure: &Figure, results: &Results<'_>) -> Vec<Plot> {
+    let plot = |quantity: &super::Quantity| {
+        let series = figure.series.iter().map(|series| {
+            let marks = series.points.iter().filter_map(|point| {
+                let y = results.value(point, quantity.path)?;
+                Some(Mark {
+                    x: point.x,
+                    y,
+                    name: String::new(),
+                    label: format!("{}, {}: {}", series.label, point.scene, significant(y)),
+                })
+            });
+            Marks {
+                label: series.label.clone(),
+                points: marks.collect(),
+            }
+        });
+        Plot {
+            title: format!("{} against {}", quantity.label, figure.axis.label),
+            x: figure.axis.clone(),
+            y: Axis {
+                label: quantity.label.to_owned(),
+                scale: quantity.scale.clone(),
+            },
+            series: series.collect(),
+            height: TALL,
+            joined: !matches!(figure.axis.scale, Scale::Names(_)),
+        }
+    };
+    figure.quantities.iter().map(plot).collect()
+}
+
+/// Every point with all the figure's quantities.
+fn table(figure: &Figure, results: &Results<'_>) -> Table {
+    let quantities = figure.quantities.iter().map(|quantity| quantity.label);
+    let heading = ["series", figure.axis.label.as_str(), "scene", "technique"];
+    let mut table = Table::new(heading.into_iter().chain(quantities));
+    for series in &figure.series {
+        for point in &series.points {
+            let x = match &figure.axis.scale {
+                Scale::Names(names) => names.get(point.x as usize).cloned().unwrap_or_default(),
+                Scale::Linear | Scale::Log => format!("{}", point.x),
+            };
+            let values = figure
+                .quantities
+                .iter()
+                .map(|quantity| words::or_dash(results.value(point, quantity.path)));
+            let first = [
+                series.label.clone(),
+                x,
+                point.scene.clone(),
+                point.technique.clone(),
+            ];
+            table.row(first.into_iter().chain(values));
+        }
+    }
+    table
+}

@@ -1,0 +1,113 @@
+//! From figures to what has to be measured: every pair of scene and technique once.
+
+use std::time::Duration;
+
+use crate::record::Record;
+use crate::setup::Wanted;
+
+use super::{Figure, Point};
+
+/// All points of all figures without doubles, by scene and size in order of appearance. Each
+/// scene's part of the `timing` seconds is that of its techniques among all.
+pub fn wanted(figures: &[Figure], timing: f64) -> Vec<Wanted> {
+    let mut jobs: Vec<Wanted> = Vec::new();
+    for point in points(figures) {
+        let job = jobs
+            .iter_mut()
+            .find(|job| job.scene == point.scene && job.resolution == point.resolution);
+        match job {
+            Some(job) if job.techniques.contains(&point.technique) => {}
+            Some(job) => job.techniques.push(point.technique.clone()),
+            None => jobs.push(Wanted {
+                scene: point.scene.clone(),
+                resolution: point.resolution,
+                techniques: vec![point.technique.clone()],
+                timing: Duration::ZERO,
+            }),
+        }
+    }
+    let rows: usize = jobs.iter().map(|job| job.techniques.len()).sum();
+    for job in &mut jobs {
+        let share = job.techniques.len() as f64 / rows as f64;
+        job.timing = Duration::from_secs_f64(timing * share);
+    }
+    jobs
+}
+
+/// Whether a row's pictures are asked for.
+pub fn shown(figures: &[Figure], row: &Record) -> bool {
+    points(figures).any(|point| point.picture && is_of(row, point))
+}
+
+/// Whether a row holds the measurement of a point. Names may be spelled differently: options in
+/// another order, a scene file by its path.
+pub fn is_of(row: &Record, point: &Point) -> bool {
+    let spec = |name: &str| catoptric_reflect::parse(name).ok();
+    let means = || spec(&point.technique).is_some_and(|asked| spec(&row.technique) == Some(asked));
+    let size = point.resolution.is_none_or(|size| size == row.resolution);
+    let stem = || std::path::Path::new(&point.scene).file_stem();
+    size && (row.scene == point.scene || stem().is_some_and(|stem| stem == row.scene.as_str()))
+        && (row.technique == point.technique || means())
+}
+
+fn points(figures: &[Figure]) -> impl Iterator<Item = &Point> {
+    let series = figures.iter().flat_map(|figure| &figure.series);
+    series.flat_map(|series| &series.points)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plot::Axis;
+    use crate::record::tests::measured;
+    use crate::suites::Series;
+
+    fn figure(points: Vec<Point>) -> Figure {
+        Figure {
+            anchor: "a",
+            title: String::new(),
+            after: "",
+            question: String::new(),
+            axis: Axis::linear("x"),
+            series: vec![Series {
+                label: String::new(),
+                points,
+            }],
+            quantities: Vec::new(),
+            quotes: Vec::new(),
+            analysis: |_| Vec::new(),
+        }
+    }
+
+    #[test]
+    fn what_two_figures_share_is_measured_once() {
+        let shared = || Point::new(1.0, "bowl", "linear");
+        let other = Point::new(2.0, "planar", "linear");
+        let large = Point {
+            resolution: Some([8, 6]),
+            ..shared()
+        };
+        let jobs = wanted(
+            &[figure(vec![shared(), other]), figure(vec![shared(), large])],
+            30.0,
+        );
+        let names: Vec<_> = jobs.iter().map(|job| job.scene.as_str()).collect();
+        assert_eq!(names, ["bowl", "planar", "bowl"]);
+        assert_eq!(jobs[0].techniques, ["linear"]);
+        assert_eq!(jobs[0].timing, Duration::from_secs(10));
+    }
+
+    #[test]
+    fn rows_are_found_by_any_spelling() {
+        let row = measured("bowl", "linear(neighbours=8,residual=cross)");
+        let other = "linear(residual=cross,neighbours=8)";
+        assert!(is_of(&row, &Point::new(0.0, "bowl", other)));
+        assert!(is_of(&row, &Point::new(0.0, "mine/bowl.toml", other)));
+        assert!(!is_of(&row, &Point::new(0.0, "bowl", "linear")));
+        let size = Point {
+            resolution: Some([1, 1]),
+            ..Point::new(0.0, "bowl", other)
+        };
+        assert!(!is_of(&row, &size));
+    }
+}

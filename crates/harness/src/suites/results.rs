@@ -1,0 +1,136 @@
+//! A figure's measurements, to be read by its analysis.
+
+use serde_json::Value;
+
+use crate::gate::lookup;
+use crate::record::{Record, Status};
+
+use super::{Ask, Figure, Point, plan};
+
+/// The rows of one figure.
+pub struct Results<'r> {
+    figure: &'r Figure,
+    rows: &'r [(Record, Value)],
+}
+
+impl<'r> Results<'r> {
+    /// `rows` are all rows of the suite, each with its JSON.
+    pub fn new(figure: &'r Figure, rows: &'r [(Record, Value)]) -> Self {
+        Self { figure, rows }
+    }
+
+    /// The row of a point; `None` where it is not measured (yet).
+    pub fn row(&self, point: &Point) -> Option<&'r Record> {
+        self.find(point).map(|(row, _)| row)
+    }
+
+    fn find(&self, point: &Point) -> Option<&'r (Record, Value)> {
+        self.rows.iter().find(|(row, _)| plan::is_of(row, point))
+    }
+
+    /// A number of a point's row; `None` where it is `null` or not measured.
+    pub fn value(&self, point: &Point, path: &str) -> Option<f64> {
+        let (row, value) = self.find(point)?;
+        let value = (row.status == Status::Ok).then_some(value)?;
+        lookup(value, path)?.as_f64()
+    }
+
+    /// Place on the axis and number of all points of a series that have it.
+    pub fn curve(&self, series: &str, path: &str) -> Vec<(f64, f64)> {
+        let found = self
+            .figure
+            .series
+            .iter()
+            .find(|found| found.label == series);
+        let points = found.into_iter().flat_map(|series| &series.points);
+        points
+            .filter_map(|point| Some((point.x, self.value(point, path)?)))
+            .collect()
+    }
+
+    /// The number of a series at the measured point that is nearest to `x`.
+    pub fn at(&self, series: &str, x: f64, path: &str) -> Option<f64> {
+        let curve = self.curve(series, path);
+        let nearest = curve
+            .into_iter()
+            .min_by(|a, b| (a.0 - x).abs().total_cmp(&(b.0 - x).abs()));
+        nearest.map(|(_, value)| value)
+    }
+
+    /// Our number for a quotation.
+    pub fn answer(&self, ask: &Ask) -> Option<f64> {
+        self.at(ask.series, ask.x, ask.path)
+    }
+
+    /// How often the one series' number is the other's, at every place where both have it.
+    pub fn ratios(&self, one: &str, other: &str, path: &str) -> Vec<(f64, f64)> {
+        let other = self.curve(other, path);
+        let one = self.curve(one, path).into_iter();
+        one.filter_map(|(x, value)| {
+            let (_, divisor) = other.iter().find(|(place, _)| *place == x)?;
+            (*divisor != 0.0).then_some((x, value / divisor))
+        })
+        .collect()
+    }
+}
+
+/// The power by which a curve grows: the slope of the least-squares line through the logarithms.
+/// `None` with fewer than two places or a number that is not positive.
+pub fn power(curve: &[(f64, f64)]) -> Option<f64> {
+    let logs = curve.iter().map(|(x, y)| (x.ln(), y.ln()));
+    let logs: Vec<(f64, f64)> = logs.collect();
+    if logs.iter().any(|(x, y)| !x.is_finite() || !y.is_finite()) {
+        return None;
+    }
+    let n = logs.len() as f64;
+    let mean = logs
+        .iter()
+        .fold((0.0, 0.0), |sum, (x, y)| (sum.0 + x / n, sum.1 + y / n));
+    let (mut above, mut below) = (0.0, 0.0);
+    for (x, y) in &logs {
+        above += (x - mean.0) * (y - mean.1);
+        below += (x - mean.0) * (x - mean.0);
+    }
+    (below > 0.0).then(|| above / below)
+}
+
+/// The constant and growing part of a cost: the least-squares line through the values, as its
+/// value at 0 and its slope, each place weighted by the inverse square of its value so that small
+/// and large places count alike. `None` with fewer than two places.
+pub fn line(curve: &[(f64, f64)]) -> Option<(f64, f64)> {
+    let (mut w, mut wx, mut wy, mut wxx, mut wxy) = (0.0, 0.0, 0.0, 0.0, 0.0);
+    for &(x, y) in curve.iter().filter(|(_, y)| *y > 0.0) {
+        let weight = 1.0 / (y * y);
+        w += weight;
+        wx += weight * x;
+        wy += weight * y;
+        wxx += weight * x * x;
+        wxy += weight * x * y;
+    }
+    let below = w * wxx - wx * wx;
+    (below > 0.0).then(|| {
+        let slope = (w * wxy - wx * wy) / below;
+        ((wy - slope * wx) / w, slope)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn powers_of_exact_curves() {
+        let square: Vec<_> = [1.0, 2.0, 5.0].map(|x: f64| (x, 3.0 * x * x)).to_vec();
+        assert!((power(&square).unwrap() - 2.0).abs() < 1e-12);
+        assert_eq!(power(&square[..1]), None);
+        assert_eq!(power(&[(1.0, 0.0), (2.0, 1.0)]), None);
+    }
+
+    #[test]
+    fn lines_through_exact_costs() {
+        let cost: Vec<_> = [100.0, 1e3, 1e5].map(|x: f64| (x, 5.0 + 0.25 * x)).to_vec();
+        let (constant, slope) = line(&cost).unwrap();
+        assert!((constant - 5.0).abs() < 1e-6 && (slope - 0.25).abs() < 1e-9);
+        assert_eq!(line(&cost[..1]), None);
+    }
+}

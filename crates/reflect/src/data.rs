@@ -1,6 +1,6 @@
 //! Buffer structs, laid out by encase as the shaders read them.
 
-use catoptric_scene::{Background, Mesh, Paint, Scene, Shape};
+use catoptric_scene::{Background, Mesh, Paint, Scene, Shape, View};
 use encase::ShaderType;
 use glam::{DVec3, UVec2, Vec2, Vec3};
 
@@ -27,9 +27,17 @@ pub(crate) struct ViewUniform {
 const NEAR: f32 = 1e-3;
 
 impl ViewUniform {
-    /// `dark`: mirrors are black where no reflection is drawn.
+    /// The scene's camera. `dark`: mirrors are black where no reflection is drawn.
     pub(crate) fn new(scene: &Scene, size: [u32; 2], dark: bool) -> Self {
-        let view = scene.camera.view(size);
+        let under = u32::from(dark);
+        Self {
+            under,
+            ..Self::from_view(scene, &scene.camera.view(size))
+        }
+    }
+
+    /// Any view of the scene, such as from behind a flat mirror or out of a cube map.
+    pub(crate) fn from_view(scene: &Scene, view: &View) -> Self {
         let (background_kind, zenith, horizon, nadir) = match scene.background {
             Background::Color(color) => (0, color, color, color),
             Background::Gradient {
@@ -49,7 +57,7 @@ impl ViewUniform {
             depth_range: depth_range(scene),
             size: UVec2::from_array(view.size),
             background_kind,
-            under: u32::from(dark),
+            under: 0,
             zenith,
             horizon,
             nadir,

@@ -274,12 +274,15 @@ pub const TECHNIQUES: &[TechniqueInfo] = &[
         Family::ImageOrder,
         "baseline",
     ),
-    later(
-        "planar",
-        "mirrored viewpoint, flat mirrors",
-        Family::ImageOrder,
-        "baseline",
-    ),
+    TechniqueInfo {
+        name: "planar",
+        what: "the scene from the mirrored eye, flat mirrors only",
+        family: Family::ImageOrder,
+        paper: "baseline",
+        options: &[EVERY],
+        maker: Maker::ImageOrder(image_order::planar::make),
+        objection: image_order::planar::objection,
+    },
     later(
         "cubemap-trace",
         "rays marched through cube maps of distance",

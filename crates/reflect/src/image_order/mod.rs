@@ -1,12 +1,15 @@
 //! Image order: for each mirror pixel, what its reflected ray meets. One file a technique, named
 //! as its shader: mirror G-buffer → technique → composite.
 
+pub(crate) mod planar;
+
 use catoptric_frame::Work;
 use catoptric_scene::Scene;
 
 use crate::ReflectError;
 use crate::gpu::Gpu;
-use crate::recorder::Recorder;
+use crate::recorder::{Begin, Recorder};
+use crate::resources::view;
 use crate::spec::{Options, Spec};
 use crate::stage::Stage;
 use crate::technique::{Output, Technique, Variant};
@@ -28,6 +31,30 @@ pub(crate) trait ImageOrder {
 
 /// Makes a technique by its name.
 pub(crate) type Make = fn(&Gpu, &Options, &Stage) -> Result<Box<dyn ImageOrder>, ReflectError>;
+
+/// Records a pass that draws reflections: colour and, with all layers, position and id. `depth` is
+/// cleared and kept as the colours are.
+fn draw_reflections(
+    frame: &mut Recorder<'_>,
+    name: &str,
+    stage: &Stage,
+    variant: Variant,
+    begin: Begin,
+    depth: Option<&wgpu::Texture>,
+    draw: impl FnOnce(&mut wgpu::RenderPass<'_>),
+) {
+    let targets = [
+        view(&stage.reflections.color),
+        view(&stage.reflections.position),
+    ];
+    let targets = [&targets[0], &targets[1]];
+    let targets = match variant {
+        Variant::AllLayers => &targets[..],
+        Variant::Color => &targets[..1],
+    };
+    let depth = depth.map(|depth| (depth, begin));
+    frame.render(name, targets, begin, depth, draw);
+}
 
 struct Whole {
     stage: Stage,

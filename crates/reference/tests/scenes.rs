@@ -3,7 +3,7 @@
 use catoptric_frame::Status;
 use catoptric_reference::{RenderOptions, Surface, Tracer, Truth, reflection_points};
 use catoptric_scene::{LoadOptions, Scene, builtin};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 const SIZE: [u32; 2] = [48, 36];
 
@@ -79,7 +79,7 @@ fn traced_reflections_are_exact_reflection_points() {
                 assert!(!shape.is_analytic(), "{}: {:?}", scene.name, hit.position);
                 continue;
             };
-            let off = |point: &glam::DVec3| point.distance(primary.position);
+            let off = |point: &DVec3| point.distance(primary.position);
             let nearest = found.points.iter().map(off).fold(f64::INFINITY, f64::min);
             // Next to a caustic two solutions meet, and lose half their digits.
             assert!(nearest < 1e-7, "{} at {at}: off by {nearest:e}", scene.name);
@@ -87,4 +87,45 @@ fn traced_reflections_are_exact_reflection_points() {
         }
     }
     assert!(checked > 1000, "{checked}");
+}
+
+/// The scene `crack` by the published criterion: error of an edge = (1 − cos δ)/2, δ the angle
+/// between the mirror's normal at the middle of the edge's reflection points and the bisector of
+/// the directions from there to the eye and to the middle of the edge (Szabo, CESCG 2013, §4.2).
+#[test]
+fn crack_splits_one_triangle_and_not_its_neighbour() {
+    /// The threshold the paper recommends.
+    const THRESHOLD: f64 = 1e-3;
+    let scene = Scene::load("crack", &LoadOptions::default()).unwrap();
+    let (shape, mesh) = (&scene.mirrors[0].shape, &scene.objects[0].mesh);
+    let view = scene.camera.view(scene.camera.resolution);
+    let reflected = |vertex: DVec3| {
+        let found = reflection_points(shape, view.eye, vertex).unwrap();
+        found.points[0]
+    };
+    let corner = |index: u32| mesh.positions[index as usize].as_dvec3();
+    let error = |[a, b]: [u32; 2]| {
+        let (a, b) = (corner(a), corner(b));
+        let middle = (reflected(a) + reflected(b)) / 2.0;
+        let towards = |point: DVec3| (point - middle).normalize();
+        let bisector = (towards(view.eye) + towards((a + b) / 2.0)).normalize();
+        let seen = shape.intersect(view.eye, -towards(view.eye), 0.0).unwrap();
+        (1.0 - seen.normal.dot(bisector)) / 2.0
+    };
+    let [large, small] = [mesh.triangles[0], mesh.triangles[1]];
+    let edges = |[a, b, c]: [u32; 3]| [[a, b], [b, c], [c, a]];
+    let worst = |triangle| edges(triangle).map(error).into_iter().fold(0.0, f64::max);
+    assert!(worst(small) < 0.9 * THRESHOLD, "{}", worst(small));
+    assert!(worst(large) > 5.0 * THRESHOLD, "{}", worst(large));
+
+    // The shared edge bends into the triangle that is split, away from the other: a gap.
+    let [a, b] = edges(large)[0];
+    assert!(edges(small).contains(&[b, a]));
+    let at = |point: DVec3| view.project(reflected(point)).unwrap().0;
+    let [from, to] = [a, b].map(|index| at(corner(index)));
+    let middle = at((corner(a) + corner(b)) / 2.0);
+    let across = |point: DVec2| (to - from).perp_dot(point - from) / (to - from).length();
+    let [inside, outside] = [large[2], small[2]].map(|index| across(at(corner(index))));
+    assert!(inside * outside < 0.0 && across(middle) * inside > 0.0);
+    assert!(across(middle).abs() > 9.0, "{} pixels wide", across(middle));
 }

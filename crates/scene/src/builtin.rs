@@ -30,7 +30,7 @@ macro_rules! scenes {
 }
 
 /// Scenes with a file of their own.
-const SCENES: [(&str, &str); 14] = scenes![
+const SCENES: [(&str, &str); 20] = scenes![
     "sphere-square",
     "sphere-objects-1k",
     "sphere-objects-20k",
@@ -40,6 +40,12 @@ const SCENES: [(&str, &str); 14] = scenes![
     "ellipsoid",
     "sphere-table",
     "sphere-touching",
+    "crack",
+    "faceted",
+    "kitchen",
+    "box",
+    "room",
+    "atrium",
     "prototype-sphere",
     "prototype-ellipsoid",
     "prototype-bowl",

@@ -303,6 +303,35 @@ impl<'d> Table<'d> {
         }
     }
 
+    /// An array of arrays of `N` whole numbers within a range.
+    pub(crate) fn count_rows<const N: usize>(
+        &self,
+        key: &'static str,
+        range: RangeInclusive<u32>,
+    ) -> Result<Option<Vec<[u32; N]>>, SceneError> {
+        let Some(value) = self.get(key).map(Spanned::get_ref) else {
+            return Ok(None);
+        };
+        let wanted = format!("an array of arrays of {N} whole numbers");
+        let DeValue::Array(rows) = value else {
+            return Err(self.wrong_type(key, value, wanted));
+        };
+        let mut counts = Vec::new();
+        for row in rows.iter() {
+            match row.get_ref() {
+                DeValue::Array(row) if row.len() == N => {
+                    let mut numbers = [0; N];
+                    for (number, value) in numbers.iter_mut().zip(row.iter()) {
+                        *number = self.to_count(key, value.get_ref(), &range)?;
+                    }
+                    counts.push(numbers);
+                }
+                _ => return Err(self.error(key, format_args!("must be {wanted}"))),
+            }
+        }
+        Ok(Some(counts))
+    }
+
     /// A point or direction.
     pub(crate) fn vector(&self, key: &'static str) -> Result<Option<DVec3>, SceneError> {
         Ok(self.numbers::<3>(key)?.map(DVec3::from_array))
@@ -381,7 +410,12 @@ impl<'d> Table<'d> {
             "" => String::new(),
             owner => format!("{owner}."),
         };
-        let wanted = format!("written as [[{prefix}{key}]]");
+        // Tables of an object or a mirror are too small for headings of their own.
+        let wanted = if prefix.contains('"') {
+            "an array of tables".to_owned()
+        } else {
+            format!("written as [[{prefix}{key}]]")
+        };
         let elements = match self.get(key).map(Spanned::get_ref) {
             None => return Ok(Vec::new()),
             Some(DeValue::Array(elements)) => elements,

@@ -33,8 +33,25 @@ impl Transform {
         translate: DVec3::ZERO,
     };
 
-    fn apply(&self, point: DVec3) -> DVec3 {
+    /// Rotation about a point, then translation.
+    pub(crate) fn rigid(degrees: DVec3, about: DVec3, translate: DVec3) -> Self {
+        let linear = rotation(degrees);
+        Self {
+            linear,
+            translate: about - linear * about + translate,
+        }
+    }
+
+    pub(crate) fn apply(&self, point: DVec3) -> DVec3 {
         self.linear * point + self.translate
+    }
+
+    /// This one, then `next`.
+    pub(crate) fn then(&self, next: &Self) -> Self {
+        Self {
+            linear: next.linear * self.linear,
+            translate: next.apply(self.translate),
+        }
     }
 }
 
@@ -76,22 +93,34 @@ impl Geometry {
             .collect();
     }
 
-    /// The mesh in world space. Positions equal after the transform become one, collapsed
-    /// triangles and (where there are triangles) unused positions go.
-    pub(crate) fn into_mesh(self, transform: &Transform) -> Result<Mesh, String> {
-        let flip = transform.linear.determinant() < 0.0;
-        let to_normal = transform.linear.inverse().transpose();
+    /// The mesh in world space, once for each of `copies`. Positions equal after the transform
+    /// become one, collapsed triangles and (where there are triangles) unused positions go.
+    pub(crate) fn into_mesh(self, copies: &[Transform]) -> Result<Mesh, String> {
         let mut used = vec![self.triangles.is_empty(); self.positions.len()];
         self.triangles
             .iter()
             .flatten()
             .for_each(|index| used[*index as usize] = true);
-
-        let mut mesh = Mesh {
-            materials: self.materials,
-            ..Mesh::default()
-        };
+        let mut mesh = Mesh::default();
         let mut seen = HashMap::new();
+        for transform in copies {
+            self.copy(transform, &used, &mut seen, &mut mesh)?;
+        }
+        mesh.materials = self.materials;
+        mesh.repair_normals();
+        Ok(mesh)
+    }
+
+    /// Adds a transformed copy to a mesh; `seen` has the indices of its positions.
+    fn copy(
+        &self,
+        transform: &Transform,
+        used: &[bool],
+        seen: &mut HashMap<[u32; 3], u32>,
+        mesh: &mut Mesh,
+    ) -> Result<(), String> {
+        let flip = transform.linear.determinant() < 0.0;
+        let to_normal = transform.linear.inverse().transpose();
         let mut merged = vec![0; self.positions.len()];
         for (index, position) in self.positions.iter().enumerate().filter(|(i, _)| used[*i]) {
             // Adding zero turns −0 into +0.
@@ -125,8 +154,7 @@ impl Geometry {
             mesh.colors
                 .extend(self.colors.get(index).map(|colors| turned(*colors, flip)));
         }
-        mesh.repair_normals();
-        Ok(mesh)
+        Ok(())
     }
 }
 
@@ -183,6 +211,15 @@ impl Mesh {
             .map(|corners| corners.map(normal))
             .collect();
         self.repair_normals();
+    }
+
+    /// Replaces all normals by those of the flat triangles, as their corners run.
+    pub(crate) fn flat_normals(&mut self) {
+        self.normals = self
+            .triangles
+            .iter()
+            .map(|triangle| [self.area_vector(triangle).normalize_or(DVec3::Y).as_vec3(); 3])
+            .collect();
     }
 
     /// Turns triangles so that they run counter-clockwise seen from where their normals point.

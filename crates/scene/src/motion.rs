@@ -6,7 +6,7 @@
 
 use glam::{DMat3, DVec3, Vec3};
 
-use crate::geometry::rotation;
+use crate::geometry::Transform;
 use crate::hash::hash;
 use crate::{Camera, Mesh, Mirror, Object, Scene, Shape};
 
@@ -136,11 +136,11 @@ impl Motion {
 
 impl Move {
     fn pose(&self, time: f64) -> Pose {
-        let turn = rotation(self.rotate_deg * time);
-        Pose {
-            turn,
-            offset: self.about - turn * self.about + self.translate * time,
-        }
+        Pose(Transform::rigid(
+            self.rotate_deg * time,
+            self.about,
+            self.translate * time,
+        ))
     }
 }
 
@@ -170,26 +170,24 @@ fn spline(points: &[DVec3], time: f64) -> DVec3 {
             * ((1.0 - share) * (leaving - (to - from)) - share * (arriving - (to - from)))
 }
 
-/// A rigid motion `p → turn · p + offset`.
+/// A rigid transform that has happened since the first frame.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Pose {
-    turn: DMat3,
-    offset: DVec3,
-}
+pub(crate) struct Pose(Transform);
 
 impl Pose {
-    const REST: Self = Self {
-        turn: DMat3::IDENTITY,
-        offset: DVec3::ZERO,
-    };
+    const REST: Self = Self(Transform::IDENTITY);
 
     fn point(&self, point: DVec3) -> DVec3 {
-        self.turn * point + self.offset
+        self.0.apply(point)
+    }
+
+    fn turn(&self, direction: DVec3) -> DVec3 {
+        self.0.linear * direction
     }
 
     /// Where a point was that the motion has brought here.
     pub(crate) fn undone(&self, point: DVec3) -> DVec3 {
-        self.turn.transpose() * (point - self.offset)
+        self.0.linear.transpose() * (point - self.0.translate)
     }
 
     fn object(&self, object: &mut Object) {
@@ -202,9 +200,7 @@ impl Pose {
             *position = self.point(position.as_dvec3()).as_vec3() + Vec3::ZERO;
         }
         for normal in mesh.normals.as_flattened_mut() {
-            *normal = (self.turn * normal.as_dvec3())
-                .normalize_or_zero()
-                .as_vec3();
+            *normal = self.turn(normal.as_dvec3()).normalize_or_zero().as_vec3();
         }
     }
 
@@ -215,18 +211,18 @@ impl Pose {
                 center, rotation, ..
             } => {
                 *center = self.point(*center);
-                *rotation = self.turn * *rotation;
+                *rotation = self.0.linear * *rotation;
             }
             Shape::Plane {
                 center, normal, up, ..
             } => {
                 *center = self.point(*center);
-                *normal = self.turn * *normal;
-                *up = self.turn * *up;
+                *normal = self.turn(*normal);
+                *up = self.turn(*up);
             }
             Shape::Bowl { center, axis, .. } => {
                 *center = self.point(*center);
-                *axis = self.turn * *axis;
+                *axis = self.turn(*axis);
             }
             Shape::Mesh(mesh) => self.mesh(mesh),
         }

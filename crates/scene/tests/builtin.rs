@@ -45,6 +45,22 @@ fn sizes_are_what_the_names_say() {
 }
 
 #[test]
+fn rooms_have_the_triangles_they_say() {
+    for (name, triangles) in [("box", 850), ("room", 4_700), ("atrium", 30_000)] {
+        let found = open(name, &LoadOptions::default())
+            .unwrap()
+            .triangle_count();
+        assert!(
+            found.abs_diff(triangles) * 50 <= triangles,
+            "{name}: {found}"
+        );
+    }
+    let kitchen = open("kitchen", &LoadOptions::default()).unwrap();
+    assert!((5_000..20_000).contains(&kitchen.vertex_count()));
+    assert!(kitchen.mirrors.len() > 2 && kitchen.mirrors.iter().all(|m| m.shape.is_convex()));
+}
+
+#[test]
 fn prototype_mirrors_cover_the_pixels_they_should() {
     for (name, pixels) in [
         ("prototype-sphere", 141_144),

@@ -294,12 +294,6 @@ fn messages_name_file_line_and_key() {
             16,
             &["`torus`", "not yet supported"],
         ),
-        (
-            "\"sphere\"",
-            "\"saddle\"",
-            16,
-            &["`saddle`", "not yet supported"],
-        ),
         ("\"sphere\"", "\"spere\"", 16, &["`spere`", "`sphere`"]),
         (
             sphere,
@@ -396,6 +390,69 @@ fn points_need_what_they_are_made_from() {
             message.contains(&format!("bad.toml:{line}: ")),
             "{keys}\n→ {message}"
         );
+        assert!(message.contains(part), "{keys}\n→ {message}");
+    }
+}
+
+#[test]
+fn written_triangles_and_copies_are_checked() {
+    let folder = tempfile::tempdir().unwrap();
+    let with = |keys: &str| {
+        let text = format!("{GOOD}[[object]]\nname = \"new\"\n{keys}\n");
+        message(folder.path(), &text)
+    };
+    let triangle = |keys: &str| {
+        format!("shape = \"triangles\"\npositions = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\n{keys}")
+    };
+    assert_eq!(with(&triangle("triangles = [[0, 1, 2]]")), None);
+    let one = "triangles = [[0, 1, 2]]\n";
+    let one = |keys: &str| triangle(&format!("{one}{keys}"));
+    let boxed = |keys: &str| format!("shape = \"box\"\n{keys}");
+    for (keys, line, part) in [
+        (triangle(""), 19, "`triangles` is missing"),
+        (
+            triangle("triangles = [[0, 1, 3]]"),
+            23,
+            "index 3, but there are 3",
+        ),
+        (triangle("triangles = [[0, 1]]"), 23, "3 whole numbers"),
+        (triangle("triangles = [[0, 1, 1]]"), 19, "mesh is empty"),
+        (
+            one("colors = [[1, 1, 1], [0, 0, 0]]"),
+            24,
+            "`colors` must be one for each of 1",
+        ),
+        (one("colors = [[1, -1, 1]]"), 24, "`colors` must not be"),
+        (
+            one("colors = [[1, 1, 1]]\ncolor = [1, 1, 1]"),
+            24,
+            "`colors` and `color` exclude each other",
+        ),
+        (boxed("colors = [[1, 1, 1]]"), 22, "unknown key `colors`"),
+        (
+            boxed("repeat = [{ translate = [1, 0, 0] }]"),
+            22,
+            "repeat 1: key `count`",
+        ),
+        (
+            boxed("repeat = { count = 2 }"),
+            22,
+            "an array of tables, not a table",
+        ),
+        (
+            boxed("repeat = [{ count = 10000 }, { count = 2 }]"),
+            22,
+            "more than 10000 copies",
+        ),
+        (
+            "shape = \"lathe\"\nprofile = [[1, 0], [1, 1]]\nturn_deg = 361".to_owned(),
+            23,
+            "`turn_deg` must be above 0 and at most 360",
+        ),
+    ] {
+        let message = with(&keys).unwrap_or_else(|| panic!("accepted: {keys}"));
+        let place = format!("bad.toml:{line}: object \"new\"");
+        assert!(message.contains(&place), "{keys}\n→ {message}");
         assert!(message.contains(part), "{keys}\n→ {message}");
     }
 }

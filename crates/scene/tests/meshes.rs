@@ -296,3 +296,75 @@ fn models_are_found_in_a_folder_of_their_own() {
         );
     }
 }
+
+/// A scene around one object or mirror.
+fn with(body: &str) -> Scene {
+    load(tempfile::tempdir().unwrap().path(), body).unwrap()
+}
+
+#[test]
+fn copies_are_made_step_by_step() {
+    let body = "[[object]]\nshape = \"triangles\"\n\
+        positions = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\ntriangles = [[0, 1, 2]]\n\
+        transform = { translate = [1, 0, 0] }\n\
+        repeat = [{ count = 3, translate = [1, 0, 0] }, { count = 2, rotate_deg = [0, 180, 0], about = [0, 0, 5] }]";
+    let mesh = &with(body).objects[0].mesh;
+    assert_eq!(mesh.triangles.len(), 6);
+    // Neighbours of the first three copies share a corner; what is rotated does so up to rounding.
+    assert!(
+        (14..=16).contains(&mesh.positions.len()),
+        "{}",
+        mesh.positions.len()
+    );
+    let starts = [
+        [1.0, 0.0, 0.0],
+        [2.0, 0.0, 0.0],
+        [3.0, 0.0, 0.0],
+        [-1.0, 0.0, 10.0],
+        [-2.0, 0.0, 10.0],
+        [-3.0, 0.0, 10.0],
+    ];
+    for (triangle, expected) in mesh.triangles.iter().zip(starts) {
+        let first = mesh.positions[triangle[0] as usize];
+        assert!(first.distance(expected.into()) < 1e-6, "{first}");
+    }
+}
+
+#[test]
+fn written_triangles_have_their_own_colours() {
+    let body = "[[object]]\nshape = \"triangles\"\n\
+        positions = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]\ntriangles = [[0, 1, 2], [1, 3, 2]]\n\
+        colors = [[1, 0, 0], [0, 0, 1]]";
+    let mesh = &with(body).objects[0].mesh;
+    let color = |triangle: usize| match mesh.materials[mesh.material[triangle] as usize].paint {
+        Paint::Color(color) => color,
+        _ => panic!("no colour"),
+    };
+    assert_eq!((color(0), color(1)), (Vec3::X, Vec3::Z));
+}
+
+#[test]
+fn a_lathe_may_turn_part_of_the_way() {
+    let body =
+        "[[object]]\nshape = \"lathe\"\nprofile = [[1, 0], [1, 1]]\nsegments = 6\nturn_deg = 90";
+    let mesh = &with(body).objects[0].mesh;
+    assert_eq!((mesh.positions.len(), mesh.triangles.len()), (14, 12));
+    // From +z to +x.
+    let (low, high) = mesh.bounds().unwrap();
+    assert!(low.distance(Vec3::ZERO) < 1e-6 && high.distance(Vec3::ONE) < 1e-6);
+}
+
+#[test]
+fn facets_have_the_normals_of_their_triangles() {
+    let body = "[[mirror]]\nshape = \"lathe\"\nprofile = [[0, -1], [1, 0], [0, 1]]\nsegments = 5\nfacets = true";
+    let scene = with(body);
+    let Shape::Mesh(mesh) = &scene.mirrors[0].shape else {
+        panic!("no mesh");
+    };
+    for (corners, normals) in mesh.triangles.iter().zip(&mesh.normals) {
+        let [a, b, c] = corners.map(|index| mesh.positions[index as usize]);
+        let face = (b - a).cross(c - a).normalize();
+        assert!(normals.iter().all(|normal| normal.distance(face) < 1e-6));
+        assert!(face.dot(a + b + c) > 0.0, "outside");
+    }
+}

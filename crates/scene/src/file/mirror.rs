@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::surface::{Surface, primitive, transform};
+use super::surface::{PRIMITIVES, Surface, copies, primitive};
 use super::{Origin, name};
 use crate::document::{SMALLEST, Table};
 use crate::error::suggest;
@@ -10,7 +10,8 @@ use crate::geometry::rotation;
 use crate::mesh::{Material, Mesh, Paint};
 use crate::{Mirror, SceneError, Shape};
 
-const SHAPES: [&str; 5] = ["sphere", "ellipsoid", "plane", "bowl", "teapot"];
+/// Shapes known exactly. Every other primitive makes a mesh mirror.
+const EXACT: [&str; 4] = ["sphere", "ellipsoid", "plane", "bowl"];
 
 /// Reads a mirror, with its mesh if it is one.
 pub(super) fn mirror(table: &Table<'_>, origin: &Origin<'_>) -> Result<Mirror, SceneError> {
@@ -31,22 +32,15 @@ pub(super) fn mirror(table: &Table<'_>, origin: &Origin<'_>) -> Result<Mirror, S
         (None, Some("ellipsoid")) => ellipsoid(table)?,
         (None, Some("plane")) => plane(table)?,
         (None, Some("bowl")) => bowl(table)?,
-        (None, Some(shape @ ("torus" | "saddle"))) => {
-            return Err(table.error(
-                "shape",
-                format_args!("`{shape}` is not yet supported for a mirror"),
-            ));
+        (None, Some("torus")) => {
+            return Err(table.error("shape", "`torus` is not yet supported for a mirror"));
         }
         (None, Some(shape)) => {
-            // A primitive that no exact mirror shares its name with is a mesh mirror.
-            let surface = if SHAPES.contains(&shape) {
-                primitive(table, shape)?
-            } else {
-                None
-            };
-            let Some(surface) = surface else {
-                let suggestion = suggest(shape, SHAPES);
-                let known = SHAPES.join(", ");
+            let Some(surface) = primitive(table, shape)? else {
+                let meshes = PRIMITIVES.into_iter().filter(|name| !EXACT.contains(name));
+                let known: Vec<_> = EXACT.into_iter().chain(meshes).collect();
+                let suggestion = suggest(shape, known.iter().copied());
+                let known = known.join(", ");
                 let message = format_args!("`{shape}` is unknown{suggestion}; known: {known}");
                 return Err(table.error("shape", message));
             };
@@ -138,13 +132,14 @@ fn bowl(table: &Table<'_>) -> Result<Shape, SceneError> {
     })
 }
 
-/// A mesh with shading normals: its own, or smooth ones.
+/// A mesh with shading normals: its own, or smooth ones, or with `facets` those of its triangles.
 fn reflecting(
     table: &Table<'_>,
     origin: &Origin<'_>,
     surface: &Surface,
 ) -> Result<Mesh, SceneError> {
-    let transform = transform(table)?;
+    let copies = copies(table)?;
+    let facets = table.boolean("facets")?.unwrap_or(false);
     table.finish()?;
     let mut geometry = surface.geometry(table, origin, true)?;
     let paint = Paint::Color(glam::Vec3::ZERO);
@@ -156,7 +151,7 @@ fn reflecting(
     geometry.uvs.clear();
     geometry.colors.clear();
     let mut mesh = geometry
-        .into_mesh(&transform)
+        .into_mesh(&copies)
         .map_err(|message| table.error_here(message))?;
     if mesh.triangles.is_empty() {
         return Err(table.error_here("the mesh is empty: no triangle with area"));
@@ -165,5 +160,8 @@ fn reflecting(
         mesh.smooth_normals();
     }
     mesh.wind_by_normals();
+    if facets {
+        mesh.flat_normals();
+    }
     Ok(mesh)
 }

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::surface::{PRIMITIVES, Surface, primitive, transform};
+use super::surface::{PRIMITIVES, Surface, copies, primitive};
 use super::{Origin, name};
 use crate::document::Table;
 use crate::error::suggest;
@@ -17,7 +17,7 @@ pub(super) struct Spec {
     name: String,
     form: Form,
     paint: Option<Paint>,
-    transform: Transform,
+    copies: Vec<Transform>,
 }
 
 enum Form {
@@ -37,7 +37,7 @@ pub(super) fn spec(table: &Table<'_>) -> Result<Spec, SceneError> {
     let color = table.color("color")?;
     let checker = table.table("checker")?;
     let vertex_colors = table.boolean("vertex_colors")?.filter(|wanted| *wanted);
-    let transform = transform(table)?;
+    let copies = copies(table)?;
     let form = match (mesh, shape) {
         (Some(_), Some(_)) => return Err(table.error("mesh", "and `shape` exclude each other")),
         (Some(file), None) => {
@@ -71,6 +71,12 @@ pub(super) fn spec(table: &Table<'_>) -> Result<Spec, SceneError> {
         paints.push(("checker", paint_checker(&checker)?));
     }
     paints.extend(vertex_colors.map(|_| ("vertex_colors", Paint::Vertex)));
+    if let (Form::Surface(Surface::Triangles { colors, .. }), Some((first, _))) =
+        (&form, paints.first())
+        && !colors.is_empty()
+    {
+        return Err(table.error("colors", format_args!("and `{first}` exclude each other")));
+    }
     if let [(first, _), (second, _), ..] = paints.as_slice() {
         return Err(table.error(first, format_args!("and `{second}` exclude each other")));
     }
@@ -79,7 +85,7 @@ pub(super) fn spec(table: &Table<'_>) -> Result<Spec, SceneError> {
         name,
         form,
         paint,
-        transform,
+        copies,
     })
 }
 
@@ -164,7 +170,7 @@ impl Spec {
         let is_mesh = matches!(self.form, Form::Surface(Surface::Mesh { .. }));
         self.paint(table, &mut geometry, is_mesh)?;
         let mesh = geometry
-            .into_mesh(&self.transform)
+            .into_mesh(&self.copies)
             .map_err(|message| table.error_here(message))?;
         let no_points = !matches!(self.form, Form::Surface(_));
         if mesh.triangles.is_empty() && !no_points {
@@ -190,7 +196,7 @@ impl Spec {
             Some(Paint::Vertex) => {}
             _ => geometry.colors.clear(),
         }
-        if self.paint.is_some() || !is_mesh {
+        if self.paint.is_some() || geometry.materials.is_empty() {
             let paint = self.paint.clone().unwrap_or(Paint::Color(DEFAULT_COLOR));
             geometry.materials = vec![Material {
                 name: self.name.clone(),

@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use glam::{DMat3, DVec2, DVec3};
+use std::f64::consts::TAU;
+
+use glam::{DMat3, DVec2, DVec3, Vec3};
 
 use super::Origin;
 use crate::document::{SMALLEST, Table};
@@ -33,9 +35,17 @@ pub(super) enum Surface {
         profile: Vec<DVec2>,
         cells: u32,
         segments: u32,
+        /// Radians.
+        turn: f64,
     },
     Teapot {
         cells: u32,
+    },
+    Triangles {
+        positions: Vec<DVec3>,
+        triangles: Vec<[u32; 3]>,
+        /// One a triangle, or none.
+        colors: Vec<Vec3>,
     },
     Mesh {
         file: String,
@@ -43,9 +53,21 @@ pub(super) enum Surface {
     },
 }
 
+/// Most copies of one object.
+const MOST_COPIES: usize = 10_000;
+
 /// Names of the primitives, for suggestions.
-pub(super) const PRIMITIVES: [&str; 9] = [
-    "quad", "grid", "box", "sphere", "torus", "lathe", "cylinder", "cone", "teapot",
+pub(super) const PRIMITIVES: [&str; 10] = [
+    "quad",
+    "grid",
+    "box",
+    "sphere",
+    "torus",
+    "lathe",
+    "cylinder",
+    "cone",
+    "teapot",
+    "triangles",
 ];
 
 /// Keys of a primitive; `None` where there is no such primitive.
@@ -81,6 +103,11 @@ pub(super) fn primitive(table: &Table<'_>, shape: &str) -> Result<Option<Surface
         "lathe" => {
             let rows = table.rows::<2>("profile")?;
             let (cells, segments) = (cells()?.unwrap_or(1), segments(32)?);
+            let degrees = table.number("turn_deg")?.unwrap_or(360.0);
+            if !(1e-3..=360.0).contains(&degrees) {
+                let message = format_args!("must be above 0 and at most 360, not {degrees}");
+                return Err(table.error("turn_deg", message));
+            }
             let rows = table.required("profile", rows)?;
             if rows.len() < 2 || rows.iter().any(|[distance, _]| *distance < 0.0) {
                 let message = "must be at least 2 pairs of distance ≥ 0 from the axis and height";
@@ -96,6 +123,7 @@ pub(super) fn primitive(table: &Table<'_>, shape: &str) -> Result<Option<Surface
                 profile: rows.into_iter().map(DVec2::from).collect(),
                 cells,
                 segments,
+                turn: degrees.to_radians(),
             }
         }
         "cylinder" | "cone" => {
@@ -113,13 +141,53 @@ pub(super) fn primitive(table: &Table<'_>, shape: &str) -> Result<Option<Surface
                 profile,
                 cells: cells()?.unwrap_or(1),
                 segments: segments(32)?,
+                turn: TAU,
             }
         }
         "teapot" => Surface::Teapot {
             cells: table.count("n", 1..=128)?.unwrap_or(8),
         },
+        "triangles" => triangles(table)?,
         _ => return Ok(None),
     }))
+}
+
+/// Triangles written out.
+fn triangles(table: &Table<'_>) -> Result<Surface, SceneError> {
+    let positions = table.rows::<3>("positions")?;
+    let triangles = table.count_rows::<3>("triangles", 0..=u32::MAX)?;
+    let colors = table.rows::<3>("colors")?;
+    let positions = table.required("positions", positions)?;
+    let triangles = table.required("triangles", triangles)?;
+    let count = positions.len();
+    if let Some(index) = triangles
+        .as_flattened()
+        .iter()
+        .find(|i| **i as usize >= count)
+    {
+        let message = format_args!("has index {index}, but there are {count} positions from 0");
+        return Err(table.error("triangles", message));
+    }
+    let colors = colors.unwrap_or_default();
+    if !colors.is_empty() && colors.len() != triangles.len() {
+        let message = format_args!(
+            "must be one for each of {} triangles, not {}",
+            triangles.len(),
+            colors.len()
+        );
+        return Err(table.error("colors", message));
+    }
+    if colors.as_flattened().iter().any(|channel| *channel < 0.0) {
+        return Err(table.error("colors", "must not be negative"));
+    }
+    Ok(Surface::Triangles {
+        positions: positions.into_iter().map(DVec3::from_array).collect(),
+        triangles,
+        colors: colors
+            .into_iter()
+            .map(|color| DVec3::from_array(color).as_vec3())
+            .collect(),
+    })
 }
 
 impl Surface {
@@ -148,8 +216,14 @@ impl Surface {
                 profile,
                 cells,
                 segments,
-            } => shapes::lathe(profile, *cells, *segments),
+                turn,
+            } => shapes::lathe(profile, *cells, *segments, *turn),
             Self::Teapot { cells } => shapes::teapot(*cells),
+            Self::Triangles {
+                positions,
+                triangles,
+                colors,
+            } => shapes::triangles(positions, triangles, colors),
             Self::Mesh { file, mtl } => {
                 let path = find(table, file, origin)?;
                 let materials = match mtl {
@@ -198,8 +272,31 @@ fn find(table: &Table<'_>, model: &str, origin: &Origin<'_>) -> Result<PathBuf, 
     })
 }
 
+/// `transform` and `repeat`: where each copy of the surface goes.
+pub(super) fn copies(table: &Table<'_>) -> Result<Vec<Transform>, SceneError> {
+    let mut all = vec![transform(table)?];
+    for table in table.tables("repeat")? {
+        let count = table.count("count", 1..=10_000)?;
+        let degrees = table.vector("rotate_deg")?.unwrap_or(DVec3::ZERO);
+        let about = table.vector("about")?.unwrap_or(DVec3::ZERO);
+        let translate = table.vector("translate")?.unwrap_or(DVec3::ZERO);
+        table.finish()?;
+        let count = table.required("count", count)?;
+        if all.len() * count as usize > MOST_COPIES {
+            let message = format_args!("makes more than {MOST_COPIES} copies");
+            return Err(table.error("count", message));
+        }
+        all = (0..count)
+            .map(f64::from)
+            .map(|k| Transform::rigid(k * degrees, about, k * translate))
+            .flat_map(|step| all.iter().map(|copy| copy.then(&step)).collect::<Vec<_>>())
+            .collect();
+    }
+    Ok(all)
+}
+
 /// `transform = { scale, rotate_deg, translate }`.
-pub(super) fn transform(table: &Table<'_>) -> Result<Transform, SceneError> {
+fn transform(table: &Table<'_>) -> Result<Transform, SceneError> {
     let Some(table) = table.table("transform")? else {
         return Ok(Transform::IDENTITY);
     };

@@ -1,8 +1,9 @@
-//! Surfaces made of squares.
+//! Surfaces made of squares, and triangles as they are written.
 
-use glam::{DVec2, DVec3, Vec2};
+use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use crate::geometry::Geometry;
+use crate::mesh::{Material, Paint};
 
 /// [−1, 1]² in the xz plane, normal +y, in `cells` × `cells` squares; u along +x, v along −z.
 pub(crate) fn grid(cells: u32) -> Geometry {
@@ -48,5 +49,25 @@ fn square(geometry: &mut Geometry, cells: u32, center: DVec3, right: DVec3, up: 
             triangle([(i, j), (i + 1, j), (i + 1, j + 1)]);
             triangle([(i, j), (i + 1, j + 1), (i, j + 1)]);
         }
+    }
+}
+
+/// Triangles as given, with their own flat normals, and each with a colour if there are any.
+pub(crate) fn triangles(positions: &[DVec3], triangles: &[[u32; 3]], colors: &[Vec3]) -> Geometry {
+    let normal = |corners: &[u32; 3]| {
+        let [a, b, c] = corners.map(|index| positions[index as usize]);
+        [(b - a).cross(c - a).normalize_or_zero(); 3]
+    };
+    let material = |(index, color): (usize, &Vec3)| Material {
+        name: format!("triangle {index}"),
+        paint: Paint::Color(*color),
+    };
+    Geometry {
+        positions: positions.to_vec(),
+        normals: triangles.iter().map(normal).collect(),
+        material: (0..colors.len() as u32).collect(),
+        materials: colors.iter().enumerate().map(material).collect(),
+        triangles: triangles.to_vec(),
+        ..Geometry::default()
     }
 }

@@ -54,6 +54,8 @@ pub struct TriangleHit {
     pub t: f64,
     /// Weights of the corners, summing to 1.
     pub barycentric: DVec3,
+    /// The triangle's corners.
+    pub corners: [DVec3; 3],
 }
 
 impl TriangleBvh {

@@ -254,8 +254,7 @@ impl Tracer {
 
     fn object_hit(&self, hit: &TriangleHit, dir: DVec3) -> Hit {
         let (index, triangle) = self.objects.owner(hit);
-        let corners = corners(&self.scene.objects[index].mesh, triangle);
-        let facing = geometric_normal(&corners);
+        let facing = geometric_normal(&hit.corners);
         let normal = if facing.dot(dir) > 0.0 {
             -facing
         } else {
@@ -264,7 +263,7 @@ impl Tracer {
         Hit {
             id: self.scene.object_id(index),
             t: hit.t,
-            position: mix(&corners, hit.barycentric),
+            position: mix(&hit.corners, hit.barycentric),
             normal,
             geometric: normal,
             surface: Surface::Object {
@@ -280,8 +279,7 @@ impl Tracer {
         let Shape::Mesh(mesh) = &self.scene.mirrors[index].shape else {
             unreachable!("only meshes are in this hierarchy");
         };
-        let corners = corners(mesh, triangle);
-        let facing = geometric_normal(&corners);
+        let facing = geometric_normal(&hit.corners);
         let shading = mix(&mesh.normals[triangle].map(Vec3::as_dvec3), hit.barycentric);
         let normal = shading.try_normalize().unwrap_or(facing);
         let geometric = if facing.dot(normal) < 0.0 {
@@ -292,7 +290,7 @@ impl Tracer {
         Hit {
             id: self.scene.mirror_id(index),
             t: hit.t,
-            position: mix(&corners, hit.barycentric),
+            position: mix(&hit.corners, hit.barycentric),
             normal,
             geometric,
             surface: Surface::Mirror {
@@ -312,9 +310,9 @@ impl Triangles {
             let Some(mesh) = mesh else { continue };
             for triangle in 0..mesh.triangles.len() {
                 let corners = corners(mesh, triangle);
-                let [a, b, c] = corners;
+                let [a, b, c] = corners.map(Vec3::as_dvec3);
                 if (b - a).cross(c - a) != DVec3::ZERO {
-                    all.push(mesh.triangles[triangle].map(|index| mesh.positions[index as usize]));
+                    all.push(corners);
                     owners.push((index, triangle as u32));
                 }
             }
@@ -331,8 +329,8 @@ impl Triangles {
     }
 }
 
-fn corners(mesh: &Mesh, triangle: usize) -> [DVec3; 3] {
-    mesh.triangles[triangle].map(|index| mesh.positions[index as usize].as_dvec3())
+fn corners(mesh: &Mesh, triangle: usize) -> [Vec3; 3] {
+    mesh.triangles[triangle].map(|index| mesh.positions[index as usize])
 }
 
 fn geometric_normal([a, b, c]: &[DVec3; 3]) -> DVec3 {

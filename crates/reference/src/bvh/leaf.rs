@@ -19,7 +19,10 @@ pub(super) struct Block {
 }
 
 impl Block {
-    /// Up to four triangles, by their indices.
+    /// Triangles side by side.
+    pub(super) const TRIANGLES: usize = 4;
+
+    /// At most [`Self::TRIANGLES`], by their indices.
     pub(super) fn new(indices: &[u32], triangles: &[[Vec3; 3]]) -> Self {
         let mut block = Self {
             corners: [[[f32::NAN; 4]; 3]; 3],
@@ -34,6 +37,12 @@ impl Block {
             block.original[lane] = *index;
         }
         block
+    }
+
+    /// The corners of one triangle.
+    pub(super) fn corners(&self, lane: usize) -> [DVec3; 3] {
+        self.corners
+            .map(|corner| DVec3::from_array(corner.map(|axis| f64::from(axis[lane]))))
     }
 }
 

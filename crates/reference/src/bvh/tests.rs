@@ -18,6 +18,7 @@ fn brute_force(triangles: &[[Vec3; 3]], origin: DVec3, dir: DVec3) -> Option<Tri
                 triangle: index,
                 t: lanes.t[0],
                 barycentric: DVec3::new(u[0], v[0], w[0]),
+                corners: triangles[index as usize].map(Vec3::as_dvec3),
             })
         })
     });

@@ -5,8 +5,8 @@ use std::ops::Range;
 use fearless_simd::{Simd, SimdBase, f32x8, prelude::*};
 use glam::{DVec3, Vec3};
 
-use super::leaf::Sheared;
-use super::wide::{Child, LANES};
+use super::leaf::{Block, Sheared};
+use super::wide::{Child, Kind, LANES};
 use super::{TriangleBvh, TriangleHit};
 
 /// Nodes that wait, without a heap allocation.
@@ -90,83 +90,85 @@ pub(super) fn nearest<S: Simd, O: Observer>(
     ];
     let sheared = Sheared::new(simd, query.origin, query.dir);
 
-    let mut hit = TriangleHit {
-        triangle: 0,
-        t: query.within.end,
-        barycentric: DVec3::ZERO,
-    };
-    let mut found = false;
+    // The best so far: distance, index among all triangles, block and lane, weights.
+    let mut nearest = query.within.end;
+    let mut triangle = 0;
+    let mut place = None;
+    let mut barycentric = DVec3::ZERO;
     let mut limit = above(query.within.end - skip);
     let mut waits = 0;
     let mut child = bvh.wide.root;
     loop {
-        if let Some(index) = child.node() {
-            observer.node();
-            let node = &bvh.wide.nodes[index];
-            let [x, y, z] = &node.planes;
-            let near = axes[0]
-                .near(simd, x)
-                .max(axes[1].near(simd, y))
-                .max(axes[2].near(simd, z).max(f32x8::splat(simd, 0.0)));
-            let far = axes[0]
-                .far(simd, x)
-                .min(axes[1].far(simd, y))
-                .min(axes[2].far(simd, z).min(f32x8::splat(simd, limit)));
-            let mut bits = near.simd_le(far).to_bitmask();
-            if bits != 0 {
-                let near: [f32; LANES] = near.into();
-                let first = bits.trailing_zeros() as usize % LANES;
-                bits &= bits - 1;
-                if bits == 0 {
-                    child = node.children[first];
-                    continue;
-                }
-                let base = waits;
-                stack[waits] = waiting(near[first], node.children[first]);
-                waits += 1;
-                while bits != 0 {
-                    let lane = bits.trailing_zeros() as usize % LANES;
+        match child.kind() {
+            Kind::Node(index) => {
+                observer.node();
+                let node = &bvh.wide.nodes[index];
+                let [x, y, z] = &node.planes;
+                let near = axes[0]
+                    .near(simd, x)
+                    .max(axes[1].near(simd, y))
+                    .max(axes[2].near(simd, z).max(f32x8::splat(simd, 0.0)));
+                let far = axes[0]
+                    .far(simd, x)
+                    .min(axes[1].far(simd, y))
+                    .min(axes[2].far(simd, z).min(f32x8::splat(simd, limit)));
+                let mut bits = near.simd_le(far).to_bitmask();
+                if bits != 0 {
+                    let near: [f32; LANES] = near.into();
+                    let first = bits.trailing_zeros() as usize % LANES;
                     bits &= bits - 1;
-                    // Nearer children lie nearer the top.
-                    let entry = waiting(near[lane], node.children[lane]);
-                    let mut at = waits;
-                    while at > base && stack[at - 1] < entry {
-                        stack[at] = stack[at - 1];
-                        at -= 1;
+                    if bits == 0 {
+                        child = node.children[first];
+                        continue;
                     }
-                    stack[at] = entry;
+                    let base = waits;
+                    stack[waits] = waiting(near[first], node.children[first]);
                     waits += 1;
+                    while bits != 0 {
+                        let lane = bits.trailing_zeros() as usize % LANES;
+                        bits &= bits - 1;
+                        // Nearer children lie nearer the top.
+                        let entry = waiting(near[lane], node.children[lane]);
+                        let mut at = waits;
+                        while at > base && stack[at - 1] < entry {
+                            stack[at] = stack[at - 1];
+                            at -= 1;
+                        }
+                        stack[at] = entry;
+                        waits += 1;
+                    }
                 }
             }
-        } else {
-            for block in &bvh.blocks[child.blocks()] {
+            Kind::Leaf(index) => {
                 observer.block();
-                let Some((mut bits, lanes)) = sheared.intersect(simd, block) else {
-                    continue;
-                };
-                observer.met();
-                while bits != 0 {
-                    let lane = bits.trailing_zeros() as usize % 4;
-                    bits &= bits - 1;
-                    let (t, triangle) = (lanes.t[lane], block.original[lane]);
-                    if t > query.within.start
-                        && (t < hit.t || t == hit.t && triangle < hit.triangle)
-                    {
-                        let [u, v, w] = lanes.barycentric;
-                        hit = TriangleHit {
-                            triangle,
-                            t,
-                            barycentric: DVec3::new(u[lane], v[lane], w[lane]),
-                        };
-                        found = true;
-                        limit = above(t - skip);
+                let block = &bvh.blocks[index];
+                if let Some((mut bits, lanes)) = sheared.intersect(simd, block) {
+                    observer.met();
+                    while bits != 0 {
+                        let lane = bits.trailing_zeros() as usize % Block::TRIANGLES;
+                        bits &= bits - 1;
+                        let (t, candidate) = (lanes.t[lane], block.original[lane]);
+                        let nearer = t < nearest || t == nearest && candidate < triangle;
+                        if t > query.within.start && nearer {
+                            let [u, v, w] = lanes.barycentric;
+                            nearest = t;
+                            triangle = candidate;
+                            place = Some((index, lane));
+                            barycentric = DVec3::new(u[lane], v[lane], w[lane]);
+                            limit = above(t - skip);
+                        }
                     }
                 }
             }
         }
         loop {
             if waits == 0 {
-                return found.then_some(hit);
+                return place.map(|(block, lane)| TriangleHit {
+                    triangle,
+                    t: nearest,
+                    barycentric,
+                    corners: bvh.blocks[block].corners(lane),
+                });
             }
             waits -= 1;
             let entry = stack[waits];

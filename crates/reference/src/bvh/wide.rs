@@ -5,8 +5,6 @@
 //! Ylitie, Karras and Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide
 //! BVHs", HPG 2017, section 3.1.
 
-use std::ops::Range;
-
 use glam::Vec3;
 use obvhs::bvh2::Bvh2;
 
@@ -15,42 +13,40 @@ use super::leaf::Block;
 /// Children of a node.
 pub(super) const LANES: usize = 8;
 
-/// Most blocks in a leaf.
-const MOST_BLOCKS: u32 = 2;
+/// Cost of a leaf, in tests of a node: a little less was measured, and made no difference.
+const LEAF_COST: f32 = 1.0;
 
-/// Cost of a block of four triangles, in tests of a node.
-const BLOCK_COST: f32 = 1.0;
-
-/// What is below a node: another node, or blocks of triangles.
+/// What is below a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Child(pub(super) u32);
+
+/// A child, told apart.
+pub(super) enum Kind {
+    /// Index of a node.
+    Node(usize),
+    /// Index of a block of triangles.
+    Leaf(usize),
+}
 
 impl Child {
     const LEAF: u32 = 1 << 31;
     /// Never entered: its box is inside out.
     const NONE: Self = Self(Self::LEAF);
 
-    fn leaf(first: usize, count: u32) -> Self {
-        Self(Self::LEAF | (count - 1) << 28 | first as u32)
-    }
-
-    /// Index of the node.
     #[inline(always)]
-    pub(super) fn node(self) -> Option<usize> {
-        (self.0 & Self::LEAF == 0).then_some(self.0 as usize)
-    }
-
-    /// Indices of the blocks, where this is no node.
-    #[inline(always)]
-    pub(super) fn blocks(self) -> Range<usize> {
-        let first = (self.0 & ((1 << 28) - 1)) as usize;
-        first..first + 1 + ((self.0 >> 28) & 7) as usize
+    pub(super) fn kind(self) -> Kind {
+        let index = (self.0 & !Self::LEAF) as usize;
+        if self.0 & Self::LEAF == 0 {
+            Kind::Node(index)
+        } else {
+            Kind::Leaf(index)
+        }
     }
 }
 
-/// Eight boxes.
+/// Eight boxes, in four cache lines.
 #[derive(Clone, Copy, Debug)]
-#[repr(align(32))]
+#[repr(align(64))]
 pub(super) struct Node {
     /// Boxes relative to the hierarchy's centre, by axis, side (low, high) and child.
     pub(super) planes: [[[f32; LANES]; 2]; 3],
@@ -87,7 +83,7 @@ impl Node {
 /// What becomes of a node of the binary hierarchy that is a root among `roots` siblings.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Choice {
-    /// Its triangles become a leaf.
+    /// Its triangles become a leaf, at most [`Block::TRIANGLES`].
     #[default]
     Leaf,
     /// A node of its own.
@@ -119,7 +115,8 @@ pub(super) fn fold(bvh: &Bvh2, triangles: &[[Vec3; 3]]) -> (Wide, Vec<Block>) {
     let mut open = vec![(0, None, 0)];
     while let Some((index, parent, waiting)) = open.pop() {
         let child = if plans[index].choice[0] == Choice::Leaf {
-            leaf(bvh, index, triangles, &mut blocks)
+            blocks.push(leaf(bvh, index, triangles));
+            Child(Child::LEAF | (blocks.len() - 1) as u32)
         } else {
             let mut places = Vec::with_capacity(LANES);
             let shared = Choice::Open(plans[index].own);
@@ -149,9 +146,9 @@ pub(super) fn fold(bvh: &Bvh2, triangles: &[[Vec3; 3]]) -> (Wide, Vec<Block>) {
     (wide, blocks)
 }
 
-/// Puts the triangles below a node into blocks. A triangle that was split is there once.
-fn leaf(bvh: &Bvh2, index: usize, triangles: &[[Vec3; 3]], blocks: &mut Vec<Block>) -> Child {
-    let mut below = Vec::new();
+/// The triangles below a node; one that was split is there once.
+fn leaf(bvh: &Bvh2, index: usize, triangles: &[[Vec3; 3]]) -> Block {
+    let mut below = Vec::with_capacity(Block::TRIANGLES);
     let mut open = vec![index];
     while let Some(index) = open.pop() {
         let node = &bvh.nodes[index];
@@ -164,9 +161,7 @@ fn leaf(bvh: &Bvh2, index: usize, triangles: &[[Vec3; 3]], blocks: &mut Vec<Bloc
     }
     below.sort_unstable();
     below.dedup();
-    let first = blocks.len();
-    blocks.extend(below.chunks(4).map(|chunk| Block::new(chunk, triangles)));
-    Child::leaf(first, (blocks.len() - first) as u32)
+    Block::new(&below, triangles)
 }
 
 /// Collects the children of a wide node.
@@ -216,7 +211,7 @@ fn plan(bvh: &Bvh2) -> Vec<Plan> {
         let first = node.first_index as usize;
         if node.is_leaf() {
             plans[index] = Plan {
-                cost: [area * BLOCK_COST; LANES],
+                cost: [area * LEAF_COST; LANES],
                 triangles: node.prim_count,
                 ..Plan::default()
             };
@@ -238,10 +233,8 @@ fn plan(bvh: &Bvh2) -> Vec<Plan> {
         };
         plan.cost[0] = area + below;
         plan.choice[0] = Choice::Node;
-        let blocks = triangles.div_ceil(4);
-        let leaf = area * BLOCK_COST * blocks as f32;
-        if blocks <= MOST_BLOCKS && leaf <= plan.cost[0] {
-            plan.cost[0] = leaf;
+        if triangles as usize <= Block::TRIANGLES && area * LEAF_COST <= plan.cost[0] {
+            plan.cost[0] = area * LEAF_COST;
             plan.choice[0] = Choice::Leaf;
         }
         for places in 2..=LANES {

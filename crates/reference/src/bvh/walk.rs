@@ -10,7 +10,7 @@ use super::wide::{Child, Kind, LANES};
 use super::{TriangleBvh, TriangleHit};
 
 /// Nodes that wait, without a heap allocation.
-const STACK: usize = 96;
+const STACK: usize = 64;
 
 /// A ray, and between which distances it may hit.
 pub(super) struct Query {
@@ -74,11 +74,8 @@ pub(super) fn nearest<S: Simd, O: Observer>(
         &mut large
     };
     let to_center = bvh.center - query.origin;
-    let reach = bvh.radius * 1.001;
-    let mut skip = 0.0;
-    if to_center.length_squared() > reach * reach {
-        skip = to_center.length() - reach;
-    }
+    // A ray that meets the bounding sphere at all meets it no earlier than here.
+    let skip = (to_center.dot(query.dir) - bvh.radius * 1.001).max(0.0);
     let start = (skip * query.dir - to_center).as_vec3();
     let dir = query.dir.as_vec3();
     let inverse = Vec3::new(inverse(dir.x), inverse(dir.y), inverse(dir.z));

@@ -289,12 +289,15 @@ pub const TECHNIQUES: &[TechniqueInfo] = &[
         Family::ImageOrder,
         "Číž 2017",
     ),
-    later(
-        "ray-trace",
-        "the reference's rays on the GPU",
-        Family::ImageOrder,
-        "control",
-    ),
+    TechniqueInfo {
+        name: "ray-trace",
+        what: "the control: the reference's rays on the GPU",
+        family: Family::ImageOrder,
+        paper: "control",
+        options: &[EVERY],
+        maker: Maker::ImageOrder(image_order::ray_trace::make),
+        objection: any_scene,
+    },
 ];
 
 /// All techniques, for listing.

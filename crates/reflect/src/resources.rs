@@ -26,6 +26,8 @@ pub(crate) enum Slot {
     Write,
     /// Texture of unfilterable floats, read by `textureLoad`.
     Texture,
+    /// A [`FLOAT4`] image that shaders write; compute stage only.
+    Image,
 }
 
 /// A bind group layout with bindings 0, 1, … as listed; all stages see them, except that only
@@ -46,7 +48,7 @@ pub(crate) fn layout(gpu: &Gpu, label: &str, slots: &[Slot]) -> wgpu::BindGroupL
         .map(|(binding, slot)| wgpu::BindGroupLayoutEntry {
             binding,
             visibility: match slot {
-                Slot::Write => wgpu::ShaderStages::COMPUTE,
+                Slot::Write | Slot::Image => wgpu::ShaderStages::COMPUTE,
                 _ => wgpu::ShaderStages::all(),
             },
             ty: match slot {
@@ -54,6 +56,11 @@ pub(crate) fn layout(gpu: &Gpu, label: &str, slots: &[Slot]) -> wgpu::BindGroupL
                 Slot::Read => buffer(wgpu::BufferBindingType::Storage { read_only: true }),
                 Slot::Write => buffer(wgpu::BufferBindingType::Storage { read_only: false }),
                 Slot::Texture => texture,
+                Slot::Image => wgpu::BindingType::StorageTexture {
+                    access: wgpu::StorageTextureAccess::WriteOnly,
+                    format: FLOAT4,
+                    view_dimension: wgpu::TextureViewDimension::D2,
+                },
             },
             count: None,
         })
@@ -151,7 +158,7 @@ const STORAGE: wgpu::BufferUsages = wgpu::BufferUsages::STORAGE
     .union(wgpu::BufferUsages::COPY_SRC)
     .union(wgpu::BufferUsages::INDIRECT);
 
-/// An image to render to and, unless it is a depth image, to read.
+/// An image to render to and, unless it is a depth image, to read and to write from shaders.
 pub(crate) fn target(
     gpu: &Gpu,
     label: &str,
@@ -161,7 +168,9 @@ pub(crate) fn target(
     let extra = if format == DEPTH {
         wgpu::TextureUsages::empty()
     } else {
-        wgpu::TextureUsages::COPY_SRC | wgpu::TextureUsages::TEXTURE_BINDING
+        wgpu::TextureUsages::COPY_SRC
+            | wgpu::TextureUsages::TEXTURE_BINDING
+            | wgpu::TextureUsages::STORAGE_BINDING
     };
     gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some(label),

@@ -2,6 +2,7 @@
 //! as its shader: mirror G-buffer → technique → composite.
 
 pub(crate) mod planar;
+pub(crate) mod ray_trace;
 
 use catoptric_frame::Work;
 use catoptric_scene::Scene;

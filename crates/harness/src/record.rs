@@ -116,17 +116,25 @@ pub struct Work {
 impl From<&Output> for Work {
     fn from(output: &Output) -> Self {
         let searched = output.vertices.is_some();
-        let hierarchy = output
-            .vertices
-            .iter()
-            .flatten()
-            .any(|vertex| vertex.hole.is_some());
+        let mut vertices = output.vertices.iter().flatten();
+        let hierarchy = vertices.any(|vertex| vertex.hole.is_some());
+        let work = &output.work;
+        // Techniques of image order count what they do; 0 is what they do not.
+        let done = |count: f64| (count > 0.0).then_some(count);
         Self {
-            evaluations: searched.then_some(output.work.evaluations),
-            steps: searched.then_some(output.work.steps),
-            node_tests: hierarchy.then_some(output.work.node_tests),
-            samples: (!searched).then_some(output.work.samples),
-            skips: (!searched).then_some(output.work.skips),
+            evaluations: if searched {
+                Some(work.evaluations)
+            } else {
+                done(work.evaluations)
+            },
+            steps: searched.then_some(work.steps),
+            node_tests: if hierarchy {
+                Some(work.node_tests)
+            } else {
+                done(work.node_tests)
+            },
+            samples: done(work.samples),
+            skips: done(work.skips),
         }
     }
 }

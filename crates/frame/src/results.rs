@@ -27,6 +27,8 @@ pub struct VertexResult {
     pub hole: Option<bool>,
     /// The enlargement repair was used; `None` for searches that have none.
     pub enlarged: Option<bool>,
+    /// The search failed and says so, and hands over this point all the same, which is drawn.
+    pub stand_in: bool,
 }
 
 /// What a search says of a vertex.

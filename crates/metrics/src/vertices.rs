@@ -16,7 +16,7 @@ pub struct VertexReport {
     pub reflected: u64,
     /// Of those, behind the mirror's silhouette cone: without any reflection point.
     pub hidden: u64,
-    /// Of `reflected`, those for which the search says that it has no answer.
+    /// Of `reflected`, those for which the search says that it has no answer, or a stand-in only.
     pub failed: u64,
     /// Answers that are NaN or infinite though the search reports none as failed; they count as
     /// not found.
@@ -28,7 +28,7 @@ pub struct VertexReport {
     /// Searches that used the enlargement repair; `None` for searches without one.
     pub enlarged: Option<u64>,
     /// Distance between the found and the nearest true reflection point in pixels, over `reflected`
-    /// without `failed`. `None` without any.
+    /// without those that have no answer; stand-ins count. `None` without any.
     pub offset_px: Option<Summary>,
     /// How many of those offsets are large, as shares.
     pub offset_share: Option<OffsetShare>,
@@ -98,7 +98,7 @@ pub fn vertex_report(
             continue;
         }
         reflected += 1;
-        if states().all(|state| state == VertexState::Failed) {
+        if group.iter().all(has_failed) {
             failed += 1;
         } else if !states().any(|state| state == VertexState::Found) {
             discard.false_drop += 1;
@@ -158,6 +158,10 @@ pub fn mean_work(results: &[VertexResult]) -> Option<Work> {
     })
 }
 
+fn has_failed(result: &VertexResult) -> bool {
+    result.state == VertexState::Failed || result.stand_in
+}
+
 fn is_non_finite(result: &VertexResult) -> bool {
     result.state != VertexState::Failed && !result.at.is_finite()
 }
@@ -209,6 +213,7 @@ mod tests {
             node_tests: 0,
             hole: None,
             enlarged: None,
+            stand_in: false,
         }
     }
 
@@ -293,6 +298,19 @@ mod tests {
         let two = [one[0], result(0, VertexState::Found, [10.0, 10.0])];
         assert_eq!(report(&two, &truth).recall, Some(1.0));
         assert_eq!(report(&two, &truth).searched, 1);
+    }
+
+    #[test]
+    fn a_stand_in_is_a_failure_with_an_offset() {
+        let mut results = [0, 1].map(|v| result(v, VertexState::Found, [10.5, 20.5]));
+        results[1] = VertexResult {
+            stand_in: true,
+            ..result(1, VertexState::Hidden, [13.5, 24.5])
+        };
+        let truth = [0, 1].map(|_| truth(REFLECTED, &[[10.5, 20.5]]));
+        let report = report(&results, &truth);
+        assert_eq!((report.failed, report.discard.false_drop), (1, 0));
+        assert_eq!(report.offset_px.unwrap().max, 5.0);
     }
 
     #[test]

@@ -209,6 +209,16 @@ impl Effort {
     pub const MET_HOLE: u32 = 1;
     /// `flags`: the enlargement repair was used.
     pub const ENLARGED: u32 = 2;
+    /// `flags`: the search failed and its answer is a stand-in.
+    pub const STAND_IN: u32 = 4;
+}
+
+/// Twin of `Repair` in `ray_hierarchy/search.wesl`.
+#[derive(Clone, Copy, Debug, ShaderType)]
+pub(crate) struct RepairUniform {
+    pub cone: f32,
+    pub sphere: f32,
+    pub stop: u32,
 }
 
 /// All object geometry of a scene, flattened.

@@ -198,6 +198,7 @@ impl Points {
                 node_tests: effort.node_tests,
                 hole: flag(&effort, Effort::MET_HOLE),
                 enlarged: flag(&effort, Effort::ENLARGED),
+                stand_in: effort.flags & Effort::STAND_IN != 0,
             })
             .collect()
     }

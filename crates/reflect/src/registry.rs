@@ -182,6 +182,38 @@ const LINEAR: &[OptionInfo] = &[
     ),
 ];
 
+const RAY_HIERARCHY: &[OptionInfo] = &[
+    words(
+        "repair",
+        &["none", "enlarge", "stop"],
+        "what is done about holes between the cones: nothing, a second test with enlarged cones and spheres, or an answer from a level above the base",
+    ),
+    OptionInfo {
+        name: "cone",
+        values: Values::Number {
+            default: 1.5,
+            range: [1.0, 100.0],
+        },
+        what: "factor on the cones' half angles (repair=enlarge)",
+    },
+    OptionInfo {
+        name: "sphere",
+        values: Values::Number {
+            default: 2.0,
+            range: [1.0, 100.0],
+        },
+        what: "factor on the spheres' radii (repair=enlarge)",
+    },
+    OptionInfo {
+        name: "stop",
+        values: Values::Whole {
+            default: 3,
+            range: [1, 14],
+        },
+        what: "level whose sphere centre is the answer, the pixels being level 0 (repair=stop)",
+    },
+];
+
 fn any_scene(_: &Options, _: &Scene) -> Option<String> {
     None
 }
@@ -214,12 +246,15 @@ pub const TECHNIQUES: &[TechniqueInfo] = &[
         maker: Maker::Search(search::linear::make),
         objection: any_scene,
     },
-    later(
-        "ray-hierarchy",
-        "cone and sphere pyramid over the reflected rays",
-        Family::Search,
-        "Szabo 2013",
-    ),
+    TechniqueInfo {
+        name: "ray-hierarchy",
+        what: "cone and sphere pyramid over the reflected rays",
+        family: Family::Search,
+        paper: "Szabo 2013",
+        options: &[RAY_HIERARCHY, SEARCH, EVERY],
+        maker: Maker::Search(search::ray_hierarchy::make),
+        objection: any_scene,
+    },
     later(
         "reflector-cubemap",
         "midpoint search in cube maps of the mirror",

@@ -4,6 +4,7 @@
 //! [`Points`]: the scene's vertices, a refinement's new points, a grid's corners.
 
 pub(crate) mod linear;
+pub(crate) mod ray_hierarchy;
 
 use crate::ReflectError;
 use crate::gpu::Gpu;

@@ -412,5 +412,12 @@ mod tests {
             "Effort",
             [steps, evaluations, node_tests, flags]
         );
+        check!(
+            RepairUniform,
+            "ray_hierarchy/search",
+            &["enlarge", "stop"],
+            "Repair",
+            [cone, sphere, stop]
+        );
     }
 }

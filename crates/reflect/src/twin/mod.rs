@@ -3,6 +3,7 @@
 //! eye; for tests only.
 
 mod linear;
+mod ray_hierarchy;
 
 use glam::{IVec2, Vec3, Vec4};
 

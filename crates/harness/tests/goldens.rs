@@ -1,0 +1,131 @@
+//! Small stored pictures of every technique: a picture that changes is seen, and explained in the
+//! change that stores it anew (`CATOPTRIC_ACCEPT=1 cargo test -p catoptric --test goldens`).
+//! Skipped without an adapter, unless `CATOPTRIC_REQUIRE_GPU=1`.
+
+mod support;
+
+use std::path::{Path, PathBuf};
+
+use catoptric_frame::{Frame, Image, write_png_rgb8};
+use catoptric_metrics::{Colormap, MapKind, compare, error_map};
+use glam::Vec3;
+use support::{catoptric, code, gpu_or_skip, stderr};
+
+/// Scene and technique of each golden; together they show every technique, mirrors of several
+/// shapes, several mirrors, and both depth modes.
+const GOLDENS: &[(&str, &str)] = &[
+    ("spheres", "linear"),
+    ("bowl", "linear(residual=cross,neighbours=8,depth=virtual)"),
+    ("sphere-table", "linear(gbuffer=mesh,under=dark)"),
+    ("planar", "planar"),
+    ("ellipsoid", "ray-trace"),
+];
+
+const SIZE: &str = "56x42";
+
+/// Largest golden, in bytes.
+const LARGEST: u64 = 64 << 10;
+
+/// Share of mirror pixels that must show the same object. Adapters round differently, so that a
+/// pixel at an object's edge may go either way: a few of the thousand or so mirror pixels.
+const SAME_OBJECT: f64 = 0.99;
+
+/// Mean absolute difference of linear colour on the mirrors: such edge pixels differ by up to 1.
+const SAME_COLOR: f64 = 0.01;
+
+/// What differs too much, if anything.
+fn difference(golden: &Frame, actual: &Frame) -> Option<String> {
+    let comparison = compare(golden, actual).expect("two pictures of one size");
+    let same_object = comparison.object_agreement.unwrap_or(0.0);
+    let color = comparison.color.map_or(f64::INFINITY, |color| color.mae);
+    let same = same_object >= SAME_OBJECT && color <= SAME_COLOR;
+    (!same).then(|| format!("objects agree on {same_object}, colours differ by {color}"))
+}
+
+fn file_name(scene: &str, technique: &str) -> String {
+    let plain = |c: char| if c.is_alphanumeric() { c } else { '-' };
+    let technique: String = technique.chars().map(plain).collect();
+    format!("{scene}.{}.exr", technique.trim_end_matches('-'))
+}
+
+fn goldens() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/goldens")
+}
+
+#[test]
+fn pictures_are_as_stored() {
+    if !gpu_or_skip() {
+        return;
+    }
+    let accept = std::env::var("CATOPTRIC_ACCEPT").is_ok_and(|value| value == "1");
+    let failed_folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("goldens");
+    std::fs::create_dir_all(&failed_folder).expect("a folder for what differs");
+    let mut failures = Vec::new();
+    for (scene, technique) in GOLDENS {
+        let name = file_name(scene, technique);
+        let golden = goldens().join(&name);
+        let actual = failed_folder.join(&name);
+        let to = if accept { &golden } else { &actual };
+        let to = to.to_str().expect("a UTF-8 path");
+        let args = [
+            "render",
+            scene,
+            "-t",
+            technique,
+            "-o",
+            to,
+            "--resolution",
+            SIZE,
+        ];
+        let output = catoptric(&args);
+        assert_eq!(code(&output), 0, "{name}: {}", stderr(&output));
+        let size = std::fs::metadata(&golden).map(|data| data.len());
+        match size {
+            Ok(size) if size <= LARGEST => {}
+            Ok(size) => failures.push(format!("{name} has {size} bytes, more than {LARGEST}")),
+            Err(_) => {
+                failures.push(format!("{name} is missing"));
+                continue;
+            }
+        }
+        if accept {
+            continue;
+        }
+        let read = |path: &Path| Frame::read_exr(path).expect("a picture just written");
+        let (golden, actual) = (read(&golden), read(&actual));
+        if let Some(difference) = difference(&golden, &actual) {
+            let map = error_map(MapKind::AbsColor, &golden, &actual).expect("one size");
+            let map = catoptric_metrics::colorize(&map, [0.0, 1.0], Colormap::Magma);
+            let path = failed_folder.join(&name).with_extension("error.png");
+            write_png_rgb8(&map, &path).expect("the folder takes files");
+            failures.push(format!("{name}: {difference}; see {}", path.display()));
+        }
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+#[test]
+fn a_picture_moved_by_two_pixels_is_noticed() {
+    for (scene, technique) in GOLDENS {
+        let name = file_name(scene, technique);
+        let golden = Frame::read_exr(goldens().join(&name)).expect("a stored golden");
+        let mut moved = golden.clone();
+        moved.color = shifted(&golden.color);
+        if let (Some(moved), Some(golden)) = (&mut moved.reflected, &golden.reflected) {
+            moved.id = shifted(&golden.id);
+            moved.position = shifted::<Vec3>(&golden.position);
+        }
+        assert!(difference(&golden, &moved).is_some(), "{name}");
+        assert_eq!(difference(&golden, &golden), None, "{name}");
+    }
+}
+
+/// An image moved right by two pixels.
+fn shifted<T: Clone>(image: &Image<T>) -> Image<T> {
+    let width = image.size()[0] as usize;
+    let mut pixels = image.pixels().to_vec();
+    for row in pixels.chunks_exact_mut(width) {
+        row.rotate_right(2);
+    }
+    Image::from_vec(image.size(), pixels)
+}

@@ -7,7 +7,7 @@
 //! a fused multiply-add would break that symmetry.
 
 use fearless_simd::{Simd, SimdBase, f64x4, prelude::*};
-use glam::{DVec3, Vec3, Vec3Swizzles as _};
+use glam::{DVec3, Vec3};
 
 /// Triangles side by side; lanes that are not used hold NaN, which no ray hits.
 #[derive(Clone, Copy, Debug)]
@@ -68,24 +68,26 @@ pub(super) struct Lanes {
 impl<S: Simd> Sheared<S> {
     #[inline(always)]
     pub(super) fn new(simd: S, origin: DVec3, dir: DVec3) -> Self {
-        let size = dir.abs();
-        // The order of the axes does not matter: in each, all corners are treated alike.
-        let (axes, [x, y, z], origin) = if size.x > size.y && size.x > size.z {
-            ([1, 2, 0], [dir.y, dir.z, dir.x], origin.yzx())
-        } else if size.y > size.z {
-            ([2, 0, 1], [dir.z, dir.x, dir.y], origin.zxy())
-        } else {
-            ([0, 1, 2], [dir.x, dir.y, dir.z], origin)
-        };
+        let (origin, dir) = (origin.to_array(), dir.to_array());
+        let mut last = usize::from(dir[1].abs() > dir[0].abs());
+        if dir[2].abs() > dir[last].abs() {
+            last = 2;
+        }
+        // The order of the others does not matter: in each, all corners are treated alike.
+        let axes = [[1, 2, 0], [2, 0, 1], [0, 1, 2]][last];
+        let [x, y, z] = axes;
         Self {
             axes,
             origin: [
-                f64x4::splat(simd, origin.x),
-                f64x4::splat(simd, origin.y),
-                f64x4::splat(simd, origin.z),
+                f64x4::splat(simd, origin[x]),
+                f64x4::splat(simd, origin[y]),
+                f64x4::splat(simd, origin[z]),
             ],
-            slope: [f64x4::splat(simd, x / z), f64x4::splat(simd, y / z)],
-            along: f64x4::splat(simd, z),
+            slope: [
+                f64x4::splat(simd, dir[x] / dir[z]),
+                f64x4::splat(simd, dir[y] / dir[z]),
+            ],
+            along: f64x4::splat(simd, dir[z]),
         }
     }
 

@@ -202,6 +202,7 @@ pub fn record(
         Some(Err(reason)) => row.meta.notes.push(reason),
         None => {}
     }
+    row.meta.notes.extend(rendered.output.notes.iter().cloned());
     row.triangles = rendered.output.triangles.clone();
     row.work = Some(Work::from(&rendered.output));
     if let Some(samples) = samples {

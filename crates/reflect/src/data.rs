@@ -195,6 +195,38 @@ pub(crate) struct Found {
     pub distance: f32,
 }
 
+/// Twin of `Settings` in `reflector_cubemap.wesl`.
+#[derive(Clone, Copy, Debug, ShaderType)]
+pub(crate) struct ReflectorCubemapSettings {
+    /// Texels along an edge of a face.
+    pub size: u32,
+    /// Most steps.
+    pub iterations: u32,
+    /// Length of the first step; 1 moves a point of the unit sphere from the normal's tip to the
+    /// bisector's, to first order.
+    pub first_step: f32,
+    /// Factor of the step length where the field changes much.
+    pub shrink: f32,
+    /// Factor of the step length where the field changes little.
+    pub grow: f32,
+    /// 1: start in the eye's direction, 0: at the bisector of the directions to eye and vertex.
+    pub from_eye: u32,
+}
+
+/// Twin of `Place` in `grid.wesl`: where a vertex of the scene lies among what is searched.
+#[derive(Clone, Copy, Debug, ShaderType)]
+pub(crate) struct GridPlace {
+    /// Coordinates in the cell, 0 to 1.
+    pub local: Vec3,
+    /// A cell, or [`GridPlace::DIRECT`] + a searched point.
+    pub cell: u32,
+}
+
+impl GridPlace {
+    /// `cell`: the vertex is searched itself.
+    pub const DIRECT: u32 = 1 << 31;
+}
+
 impl Found {
     /// `state`: the point has this reflection point.
     pub const FOUND: u32 = 0;
@@ -419,5 +451,13 @@ mod tests {
             "Repair",
             [cone, sphere, stop]
         );
+        check!(
+            ReflectorCubemapSettings,
+            "reflector_cubemap",
+            &[],
+            "Settings",
+            [size, iterations, first_step, shrink, grow, from_eye]
+        );
+        check!(GridPlace, "grid", &[], "Place", [local, cell]);
     }
 }

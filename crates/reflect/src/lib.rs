@@ -38,6 +38,7 @@ mod world;
 
 pub use gpu::{AdapterInfo, Gpu, GpuError, Prefer, adapters};
 pub use registry::{Family, OptionInfo, TechniqueInfo, Values, list};
+pub use search::reflector_cubemap::walk::{CubemapAnswer, CubemapStep, CubemapWalk};
 pub use spec::{Options, Spec, SpecError, parse};
 pub use technique::{Output, Prepared};
 pub use timing::{FrameTime, SelfTest};

@@ -90,6 +90,7 @@ impl Technique for ObjectOrder {
             searched: efforts.searched,
             triangles: Some(self.refine.triangles(gpu, &self.stage)),
             work: efforts.mean(),
+            notes: self.refine.notes(),
         }
     }
 }

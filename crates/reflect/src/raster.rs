@@ -17,8 +17,9 @@ pub(crate) struct Raster {
 }
 
 impl Raster {
-    /// `program` has the entries `vertex`, `color` and `layers`, knows the feature
-    /// `virtual_depth`, and reads `slots` as group 3. Reads the option `depth`.
+    /// `program` has the entries `vertex`, `color` and `layers`, knows the features
+    /// `virtual_depth` and `extend`, and reads `slots` as group 3. Reads the options `depth` and
+    /// `hidden`.
     pub(crate) fn new(
         gpu: &Gpu,
         options: &Options,
@@ -26,12 +27,15 @@ impl Raster {
         program: &str,
         slots: &[Slot],
     ) -> Result<Self, ReflectError> {
-        let features: &[&str] = if options.is("depth", "virtual") {
-            &["virtual_depth"]
-        } else {
-            &[]
-        };
-        let module = module(gpu, program, features)?;
+        let features = [
+            ("depth", "virtual", "virtual_depth"),
+            ("hidden", "extend", "extend"),
+        ];
+        let features = features
+            .into_iter()
+            .filter(|(option, value, _)| options.is(option, value));
+        let features: Vec<_> = features.map(|(_, _, feature)| feature).collect();
+        let module = module(gpu, program, &features)?;
         let own_layout = layout(gpu, program, slots);
         let layouts = [
             Some(&stage.world.view_layout),

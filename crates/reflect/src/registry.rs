@@ -80,7 +80,6 @@ pub enum Values {
 
 /// What makes a technique.
 #[derive(Clone, Copy, Debug)]
-#[expect(dead_code, reason = "families without a technique yet")]
 pub(crate) enum Maker {
     Search(search::Make),
     Refinement(refine::Make),
@@ -159,8 +158,8 @@ const SEARCH: &[OptionInfo] = &[
     ),
     words(
         "hidden",
-        &["drop"],
-        "what becomes of triangles with a hidden vertex",
+        &["drop", "extend"],
+        "triangles with a hidden vertex are dropped, or drawn with the vertex continued behind the tangent plane unless all three are hidden",
     ),
 ];
 
@@ -214,6 +213,73 @@ const RAY_HIERARCHY: &[OptionInfo] = &[
     },
 ];
 
+const REFLECTOR_CUBEMAP: &[OptionInfo] = &[
+    OptionInfo {
+        name: "iterations",
+        values: Values::Whole {
+            default: 9,
+            range: [1, 256],
+        },
+        what: "most steps of a search",
+    },
+    OptionInfo {
+        name: "size",
+        values: Values::Whole {
+            default: 256,
+            range: [2, 2048],
+        },
+        what: "texels along an edge of the cube maps",
+    },
+    words(
+        "start",
+        &["bisector", "eye"],
+        "the direction from the mirror's centre where a search starts: halfway between eye and vertex, or the eye's",
+    ),
+    OptionInfo {
+        name: "step",
+        values: Values::Number {
+            default: 0.5,
+            range: [0.05, 4.0],
+        },
+        what: "length of the first step, in units of the projected bisector",
+    },
+    OptionInfo {
+        name: "shrink",
+        values: Values::Number {
+            default: 0.6,
+            range: [0.1, 1.0],
+        },
+        what: "factor of the step length where the field changes much within a step",
+    },
+    OptionInfo {
+        name: "grow",
+        values: Values::Number {
+            default: 1.25,
+            range: [1.0, 4.0],
+        },
+        what: "factor of the step length where the field changes little within a step",
+    },
+];
+
+const GRID: &[OptionInfo] = &[
+    OptionInfo {
+        name: "fraction",
+        values: Values::Number {
+            default: 0.1,
+            range: [0.0, 1.0],
+        },
+        what: "grid vertices as a share of the mesh's; 1 searches every vertex of the mesh",
+    },
+    OptionInfo {
+        name: "cell",
+        values: Values::Number {
+            default: 0.0,
+            range: [0.0, 1e6],
+        },
+        what: "edge of the cells in world units, whatever their number; 0 goes by the fraction",
+    },
+];
+
 fn any_scene(_: &Options, _: &Scene) -> Option<String> {
     None
 }
@@ -255,12 +321,15 @@ pub const TECHNIQUES: &[TechniqueInfo] = &[
         maker: Maker::Search(search::ray_hierarchy::make),
         objection: any_scene,
     },
-    later(
-        "reflector-cubemap",
-        "midpoint search in cube maps of the mirror",
-        Family::Search,
-        "Estalella et al. 2005",
-    ),
+    TechniqueInfo {
+        name: "reflector-cubemap",
+        what: "midpoint search in cube maps of the mirror",
+        family: Family::Search,
+        paper: "Estalella et al. 2005",
+        options: &[REFLECTOR_CUBEMAP, SEARCH, EVERY],
+        maker: Maker::Search(search::reflector_cubemap::make),
+        objection: search::reflector_cubemap::objection,
+    },
     later(
         "newton",
         "Newton's method on the G-buffer, sub-pixel",
@@ -285,12 +354,15 @@ pub const TECHNIQUES: &[TechniqueInfo] = &[
         Family::Refinement,
         "Szabo 2013",
     ),
-    later(
-        "+grid",
-        "interpolates most vertices from a grid",
-        Family::Refinement,
-        "Estalella et al. 2005",
-    ),
+    TechniqueInfo {
+        name: "+grid",
+        what: "interpolates vertices between the virtual images of a grid around each mesh",
+        family: Family::Refinement,
+        paper: "Estalella et al. 2005",
+        options: &[GRID],
+        maker: Maker::Refinement(refine::grid::make),
+        objection: any_scene,
+    },
     later(
         "+pixel",
         "crack-free, error in pixels",

@@ -26,6 +26,8 @@ pub(crate) enum Slot {
     Write,
     /// Texture of unfilterable floats, read by `textureLoad`.
     Texture,
+    /// Array of such textures.
+    Textures,
     /// A [`FLOAT4`] image that shaders write; compute stage only.
     Image,
 }
@@ -38,9 +40,9 @@ pub(crate) fn layout(gpu: &Gpu, label: &str, slots: &[Slot]) -> wgpu::BindGroupL
         has_dynamic_offset: false,
         min_binding_size: None,
     };
-    let texture = wgpu::BindingType::Texture {
+    let texture = |view_dimension| wgpu::BindingType::Texture {
         sample_type: wgpu::TextureSampleType::Float { filterable: false },
-        view_dimension: wgpu::TextureViewDimension::D2,
+        view_dimension,
         multisampled: false,
     };
     let entries: Vec<_> = (0..)
@@ -55,7 +57,8 @@ pub(crate) fn layout(gpu: &Gpu, label: &str, slots: &[Slot]) -> wgpu::BindGroupL
                 Slot::Uniform => buffer(wgpu::BufferBindingType::Uniform),
                 Slot::Read => buffer(wgpu::BufferBindingType::Storage { read_only: true }),
                 Slot::Write => buffer(wgpu::BufferBindingType::Storage { read_only: false }),
-                Slot::Texture => texture,
+                Slot::Texture => texture(wgpu::TextureViewDimension::D2),
+                Slot::Textures => texture(wgpu::TextureViewDimension::D2Array),
                 Slot::Image => wgpu::BindingType::StorageTexture {
                     access: wgpu::StorageTextureAccess::WriteOnly,
                     format: FLOAT4,

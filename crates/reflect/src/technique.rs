@@ -50,6 +50,8 @@ pub struct Output {
     pub triangles: Option<Triangles>,
     /// Means per search that was run, or per mirror pixel.
     pub work: Work,
+    /// What else the reader of these numbers should know, in sentences.
+    pub notes: Vec<String>,
 }
 
 /// A technique that stands ready to render one scene.

@@ -8,7 +8,7 @@ use glam::{Vec2, Vec3};
 ///
 /// Positions are merged when bitwise equal after the transform, so that a search visits each
 /// once. Attributes are stored per triangle corner, in the order of `triangles`.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// Unique world-space positions.
     pub positions: Vec<Vec3>,
@@ -27,7 +27,7 @@ pub struct Mesh {
 }
 
 /// A named paint.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// From the MTL file, or the object's name.
     pub name: String,
@@ -36,7 +36,7 @@ pub struct Material {
 }
 
 /// The colour of an unlit surface.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Paint {
     /// One linear RGB colour.
     Color(Vec3),
@@ -64,7 +64,7 @@ pub enum Paint {
 ///
 /// Texel (0, 0) is the top left; texture coordinate v = 0 is the bottom edge: the texel centre
 /// of column `i`, row `j` is at `u = (i + ½)/width`, `v = 1 − (j + ½)/height`.
-#[derive(Debug)]
+#[derive(Debug, PartialEq)]
 pub struct Texture {
     /// Texels a row.
     pub width: u32,

@@ -16,7 +16,7 @@ pub struct Mirror {
 }
 
 /// A reflecting surface in world space. Each has a reflecting side; the other is opaque black.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// Reflects on its outside.
     Sphere {

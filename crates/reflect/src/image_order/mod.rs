@@ -96,6 +96,7 @@ impl Technique for Whole {
             searched: 0,
             triangles: None,
             work: self.technique.work(gpu, &self.stage),
+            notes: Vec::new(),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Refinements: which points a search is asked for, and the triangles drawn from its answers.
 //! One file a refinement, named as its shader. Any search goes with any refinement.
 
+pub(crate) mod grid;
 pub(crate) mod none;
 
 use catoptric_frame::{Triangles, VertexResult};
@@ -40,6 +41,11 @@ pub(crate) trait Refine {
 
     /// All triangles of the last frame.
     fn triangles(&self, gpu: &Gpu, stage: &Stage) -> Triangles;
+
+    /// What else the reader of its numbers should know, in sentences.
+    fn notes(&self) -> Vec<String> {
+        Vec::new()
+    }
 }
 
 /// What every refinement is made from.
@@ -47,7 +53,6 @@ pub(crate) struct Context<'a> {
     pub gpu: &'a Gpu,
     /// Of the search: `depth`, `hidden`.
     pub search_options: &'a Options,
-    #[expect(dead_code, reason = "for refinements that have options")]
     /// The refinement's own; `None` without one.
     pub options: Option<&'a Options>,
     pub stage: &'a Stage,

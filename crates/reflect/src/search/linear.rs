@@ -52,6 +52,9 @@ pub(crate) fn make(context: &Context<'_>) -> Result<Box<dyn Search>, ReflectErro
     if options.is("neighbours", "8") {
         features.push("eight");
     }
+    if options.is("hidden", "extend") {
+        features.push("extend");
+    }
     let view = Some(&stage.world.view_layout);
     let mirror = Some(&stage.gbuffer.mirror_layout);
     let find = layout(gpu, "start found", &[Slot::Uniform, Slot::Write]);

@@ -5,6 +5,7 @@
 
 pub(crate) mod linear;
 pub(crate) mod ray_hierarchy;
+pub(crate) mod reflector_cubemap;
 
 use crate::ReflectError;
 use crate::gpu::Gpu;

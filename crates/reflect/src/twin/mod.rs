@@ -4,6 +4,7 @@
 
 mod linear;
 mod ray_hierarchy;
+mod reflector_cubemap;
 
 use glam::{IVec2, Vec3, Vec4};
 

@@ -1,0 +1,239 @@
+//! Midpoint search in reflector cube maps (Estalella et al. 2005, §4.3).
+//!
+//! The maps depend on the mirror alone: they are made when the technique is prepared, and again
+//! only for a mirror that has moved.
+
+mod maps;
+pub(crate) mod walk;
+
+use catoptric_scene::{Mirror, Scene, Shape};
+use wgpu::util::{DeviceExt, TextureDataOrder};
+
+use super::{Context, Search};
+use crate::ReflectError;
+use crate::data::ReflectorCubemapSettings;
+use crate::gpu::Gpu;
+use crate::points::Points;
+use crate::recorder::Recorder;
+use crate::resources::{FLOAT4, Slot, compute, group, layout, module, uniform};
+use crate::spec::Options;
+use crate::stage::Stage;
+use crate::technique::Variant;
+use maps::Maps;
+
+/// Reads the search's options.
+fn settings(options: &Options) -> ReflectorCubemapSettings {
+    ReflectorCubemapSettings {
+        size: options.whole("size"),
+        iterations: options.whole("iterations"),
+        first_step: options.number("step") as f32,
+        shrink: options.number("shrink") as f32,
+        grow: options.number("grow") as f32,
+        from_eye: u32::from(options.is("start", "eye")),
+    }
+}
+
+/// Why a scene's mirrors cannot be searched.
+pub(crate) fn objection(_: &Options, scene: &Scene) -> Option<String> {
+    scene.mirrors.iter().find_map(|mirror| {
+        let reason = maps::objection(&mirror.shape)?;
+        Some(format!("mirror `{}` {reason}", mirror.name))
+    })
+}
+
+struct ReflectorCubemap {
+    size: u32,
+    settings: wgpu::Buffer,
+    layout: wgpu::BindGroupLayout,
+    search: wgpu::ComputePipeline,
+    counting: wgpu::ComputePipeline,
+    mirrors: Vec<OnGpu>,
+    /// How often a mirror's maps were made.
+    builds: u32,
+}
+
+/// The maps of one mirror.
+struct OnGpu {
+    shape: Shape,
+    group: wgpu::BindGroup,
+}
+
+pub(crate) fn make(context: &Context<'_>) -> Result<Box<dyn Search>, ReflectError> {
+    Ok(Box::new(ReflectorCubemap::new(context)?))
+}
+
+impl ReflectorCubemap {
+    fn new(context: &Context<'_>) -> Result<Self, ReflectError> {
+        let Context {
+            gpu,
+            options,
+            stage,
+            points_layout,
+        } = context;
+        let slots = [Slot::Uniform, Slot::Textures, Slot::Textures];
+        let layout = layout(gpu, "reflector cube maps", &slots);
+        let extend = options.is("hidden", "extend").then_some("extend");
+        let search = |counts: Option<&'static str>| -> Result<_, ReflectError> {
+            let features: Vec<_> = extend.into_iter().chain(counts).collect();
+            let module = module(gpu, "reflector_cubemap", &features)?;
+            let layouts = [
+                Some(&stage.world.view_layout),
+                Some(&stage.gbuffer.mirror_layout),
+                Some(*points_layout),
+                Some(&layout),
+            ];
+            Ok(compute(gpu, &module, "search", &layouts))
+        };
+        let settings = settings(options);
+        let mut made = Self {
+            size: settings.size,
+            settings: uniform(gpu, &settings),
+            search: search(None)?,
+            counting: search(Some("count"))?,
+            layout,
+            mirrors: Vec::new(),
+            builds: 0,
+        };
+        let mirrors = stage.world.scene.mirrors.iter();
+        made.mirrors = mirrors.map(|mirror| made.build(gpu, mirror)).collect();
+        Ok(made)
+    }
+
+    /// Makes the maps of a mirror.
+    fn build(&mut self, gpu: &Gpu, mirror: &Mirror) -> OnGpu {
+        self.builds += 1;
+        let maps = Maps::new(&mirror.shape, self.size);
+        let views = [&maps.positions, &maps.normals].map(|texels| {
+            let texture = faces(gpu, maps.size, texels);
+            texture.create_view(&wgpu::TextureViewDescriptor {
+                dimension: Some(wgpu::TextureViewDimension::D2Array),
+                ..Default::default()
+            })
+        });
+        let resources = [
+            self.settings.as_entire_binding(),
+            wgpu::BindingResource::TextureView(&views[0]),
+            wgpu::BindingResource::TextureView(&views[1]),
+        ];
+        OnGpu {
+            shape: mirror.shape.clone(),
+            group: group(gpu, &self.layout, &resources),
+        }
+    }
+}
+
+/// A texture of six layers. Cube textures cannot be read texel by texel.
+fn faces(gpu: &Gpu, size: u32, texels: &[[f32; 4]]) -> wgpu::Texture {
+    gpu.device.create_texture_with_data(
+        &gpu.queue,
+        &wgpu::TextureDescriptor {
+            label: Some("reflector cube map"),
+            size: wgpu::Extent3d {
+                width: size,
+                height: size,
+                depth_or_array_layers: 6,
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: FLOAT4,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING,
+            view_formats: &[],
+        },
+        TextureDataOrder::LayerMajor,
+        bytemuck::cast_slice(texels),
+    )
+}
+
+impl Search for ReflectorCubemap {
+    fn update(&mut self, gpu: &Gpu, stage: &Stage) {
+        for (index, mirror) in stage.world.scene.mirrors.iter().enumerate() {
+            if self.mirrors[index].shape != mirror.shape {
+                self.mirrors[index] = self.build(gpu, mirror);
+            }
+        }
+    }
+
+    fn begin_frame(&mut self, _gpu: &Gpu) {}
+
+    fn record_build(&self, _frame: &mut Recorder<'_>, _stage: &Stage) {}
+
+    fn record_search(
+        &self,
+        frame: &mut Recorder<'_>,
+        stage: &Stage,
+        mirror: usize,
+        points: &Points,
+        variant: Variant,
+    ) {
+        frame.compute("search", |pass| {
+            pass.set_pipeline(match variant {
+                Variant::AllLayers => &self.counting,
+                Variant::Color => &self.search,
+            });
+            pass.set_bind_group(0, &stage.world.view_group, &[]);
+            pass.set_bind_group(1, &stage.gbuffer.mirror_groups[mirror], &[]);
+            pass.set_bind_group(2, &points.group, &[]);
+            pass.set_bind_group(3, &self.mirrors[mirror].group, &[]);
+            points.run(pass);
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::points::points_layout;
+    use crate::spec::parse;
+    use crate::testing::{gpu_or_skip, scene};
+
+    #[test]
+    fn maps_are_made_again_for_a_mirror_that_moves_and_only_then() {
+        let Some(gpu) = gpu_or_skip() else {
+            return;
+        };
+        let mut scene = scene("spheres");
+        let spec = parse("reflector-cubemap(size=16)").expect("a technique");
+        let mut stage = Stage::new(&gpu, spec.options(), &scene, [32, 24]).expect("fits");
+        let mut search = ReflectorCubemap::new(&Context {
+            gpu: &gpu,
+            options: spec.options(),
+            stage: &stage,
+            points_layout: &points_layout(&gpu),
+        })
+        .expect("can be made");
+        let mirrors = scene.mirrors.len() as u32;
+        assert_eq!(search.builds, mirrors);
+        let mut builds_after = |scene: &Scene| {
+            stage.world.update(&gpu, scene).expect("the same scene");
+            search.update(&gpu, &stage);
+            search.builds - mirrors
+        };
+        scene.camera.eye += DVec3::new(0.1, 0.2, 0.0);
+        scene.objects[0].mesh.positions[0] += 0.5;
+        assert_eq!(builds_after(&scene), 0, "eye and objects");
+        let Shape::Sphere { center, .. } = &mut scene.mirrors[0].shape else {
+            panic!("a sphere")
+        };
+        center.x += 0.1;
+        assert_eq!(builds_after(&scene), 1, "moved");
+        let Shape::Sphere { radius, .. } = &mut scene.mirrors[0].shape else {
+            panic!("a sphere")
+        };
+        *radius *= 1.01;
+        assert_eq!(builds_after(&scene), 2, "deformed");
+        assert_eq!(builds_after(&scene), 2, "at rest");
+    }
+
+    #[test]
+    fn scenes_with_open_or_concave_mirrors_are_refused_by_name() {
+        let spec = parse("reflector-cubemap").expect("a technique");
+        let why = |name: &str| objection(spec.options(), &scene(name));
+        assert_eq!(why("spheres"), None);
+        assert_eq!(why("ellipsoid"), None);
+        assert!(why("planar").is_some_and(|why| why.contains("open")));
+        assert!(why("bowl").is_some_and(|why| why.contains("concave")));
+    }
+}

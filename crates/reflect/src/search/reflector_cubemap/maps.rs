@@ -1,0 +1,290 @@
+//! Reflector cube maps: position and normal of a mirror by direction from its centre
+//! (Estalella et al. 2005, §4.1).
+//!
+//! The centre sees each point of a closed star-shaped mirror once. Texels lie on the nodes of a
+//! grid over each face, those of the outer rows exactly on the cube's edges: neighbouring faces
+//! share these, so that bilinear interpolation is continuous across seams and never reads two
+//! faces. A sphere's or an ellipsoid's texels are exact; a mesh's are the points and interpolated
+//! normals of its triangles, however finely it is drawn.
+//!
+//! Face `2k` looks along axis `k` (x, y, z), face `2k + 1` against it. Coordinates on a face are
+//! the direction's components along axes `k + 1` and `k + 2` (cyclic) where that along `k` is ±1.
+
+use catoptric_scene::{Mesh, Shape};
+use glam::DVec3;
+
+/// Position and normal of one texel, relative to the mirror's centre.
+#[derive(Clone, Copy, Debug)]
+struct Texel {
+    position: DVec3,
+    normal: DVec3,
+}
+
+/// Both cube maps of a mirror, faces one after the other, rows along the face's first coordinate.
+#[derive(Clone, Debug)]
+pub(crate) struct Maps {
+    /// Texels along an edge of a face.
+    pub size: u32,
+    /// World-space offset from the mirror's centre; w is 0.
+    pub positions: Vec<[f32; 4]>,
+    /// Unit, outwards; w is 0.
+    pub normals: Vec<[f32; 4]>,
+}
+
+/// Why a mirror has no cube maps; `None` if it has.
+pub(crate) fn objection(shape: &Shape) -> Option<&'static str> {
+    match shape {
+        Shape::Sphere { .. } | Shape::Ellipsoid { .. } => None,
+        Shape::Plane { .. } => Some("is open, and needs to be closed"),
+        Shape::Bowl { .. } => {
+            Some("is concave, where the bisector need not lead to the reflection point")
+        }
+        Shape::Mesh(mesh) if !mesh.is_closed() => Some("is open, and needs to be closed"),
+        Shape::Mesh(mesh) if !is_star_shaped(mesh, shape.center()) => {
+            Some("is not seen whole from its centre, as a cube map needs")
+        }
+        Shape::Mesh(_) => None,
+    }
+}
+
+/// Whether a closed mesh turns the reflecting side of every triangle away from `center`, so that
+/// each ray from there meets it exactly once.
+fn is_star_shaped(mesh: &Mesh, center: DVec3) -> bool {
+    let volumes = mesh.triangles.iter().map(|triangle| {
+        let [a, b, c] = corners(mesh, triangle, center);
+        a.dot(b.cross(c))
+    });
+    let (least, greatest) = volumes.fold((f64::MAX, f64::MIN), |(least, greatest), volume| {
+        (least.min(volume), greatest.max(volume))
+    });
+    let outwards = |(triangle, normals): (&[u32; 3], &[glam::Vec3; 3])| {
+        let middle: DVec3 = corners(mesh, triangle, center).into_iter().sum();
+        middle.dot((normals[0] + normals[1] + normals[2]).as_dvec3()) > 0.0
+    };
+    (least > 0.0 || greatest < 0.0) && (mesh.triangles.iter().zip(&mesh.normals)).all(outwards)
+}
+
+fn corners(mesh: &Mesh, triangle: &[u32; 3], center: DVec3) -> [DVec3; 3] {
+    triangle.map(|vertex| mesh.positions[vertex as usize].as_dvec3() - center)
+}
+
+/// Signed axis of a face, and its two coordinate axes.
+fn face_axes(face: u32) -> [DVec3; 3] {
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+    let axis = face as usize / 2;
+    let sign = if face.is_multiple_of(2) { 1.0 } else { -1.0 };
+    [
+        sign * axes[axis],
+        axes[(axis + 1) % 3],
+        axes[(axis + 2) % 3],
+    ]
+}
+
+impl Maps {
+    /// Both maps with `size` (at least 2) texels along an edge.
+    ///
+    /// # Panics
+    /// On a shape to which there is an [`objection`].
+    pub(crate) fn new(shape: &Shape, size: u32) -> Self {
+        let texels = match shape {
+            Shape::Mesh(mesh) => of_mesh(mesh, shape.center(), size),
+            _ => of_surface(shape, size),
+        };
+        let four = |v: DVec3| [v.x as f32, v.y as f32, v.z as f32, 0.0];
+        Self {
+            size,
+            positions: texels.iter().map(|texel| four(texel.position)).collect(),
+            normals: texels.iter().map(|texel| four(texel.normal)).collect(),
+        }
+    }
+}
+
+/// Coordinate in [−1, 1] of a texel on its face.
+fn coordinate(texel: u32, size: u32) -> f64 {
+    2.0 * f64::from(texel) / f64::from(size - 1) - 1.0
+}
+
+fn of_surface(shape: &Shape, size: u32) -> Vec<Texel> {
+    let center = shape.center();
+    let mut texels = Vec::with_capacity(6 * (size * size) as usize);
+    for face in 0..6 {
+        let [axis, right, down] = face_axes(face);
+        for row in 0..size {
+            for column in 0..size {
+                let [x, y] = [column, row].map(|texel| coordinate(texel, size));
+                let direction = (axis + x * right + y * down).normalize();
+                let hit = (shape.intersect(center, direction, 0.0))
+                    .expect("the centre is inside the mirror");
+                texels.push(Texel {
+                    position: hit.position - center,
+                    normal: hit.normal,
+                });
+            }
+        }
+    }
+    texels
+}
+
+/// How far outside a triangle a direction may pass, as a share of the triangle's width, so that
+/// rounding leaves no texel between two triangles.
+const EDGE_SLACK: f64 = 1e-9;
+
+fn of_mesh(mesh: &Mesh, center: DVec3, size: u32) -> Vec<Texel> {
+    let mut texels = vec![None; 6 * (size * size) as usize];
+    for (triangle, normals) in mesh.triangles.iter().zip(&mesh.normals) {
+        let corners = corners(mesh, triangle, center);
+        for face in 0..6 {
+            let first = (face * size * size) as usize;
+            let face_texels = &mut texels[first..first + (size * size) as usize];
+            project(
+                face,
+                size,
+                &corners,
+                &normals.map(glam::Vec3::as_dvec3),
+                face_texels,
+            );
+        }
+    }
+    let covered = texels.into_iter().collect::<Option<Vec<_>>>();
+    covered.expect("a closed star-shaped mesh covers every direction")
+}
+
+/// Draws the part of a triangle that a face of the cube sees.
+fn project(
+    face: u32,
+    size: u32,
+    corners: &[DVec3; 3],
+    normals: &[DVec3; 3],
+    texels: &mut [Option<Texel>],
+) {
+    let [axis, right, down] = face_axes(face);
+    let depths = corners.map(|corner| corner.dot(axis));
+    if depths.iter().all(|depth| *depth <= 0.0) {
+        return;
+    }
+    // A triangle that reaches behind the centre is looked for all over the face.
+    let in_front = depths.iter().all(|depth| *depth > 0.0);
+    let range = |along: DVec3| -> std::ops::RangeInclusive<u32> {
+        let last = f64::from(size - 1);
+        if !in_front {
+            return 0..=size - 1;
+        }
+        let places = [0, 1, 2].map(|i| (corners[i].dot(along) / depths[i] + 1.0) / 2.0 * last);
+        let [low, high] = [
+            places.into_iter().fold(f64::MAX, f64::min),
+            places.into_iter().fold(f64::MIN, f64::max),
+        ];
+        if high < -1.0 || low > last + 1.0 {
+            #[expect(
+                clippy::reversed_empty_ranges,
+                reason = "nothing of it is on this face"
+            )]
+            return 1..=0;
+        }
+        let low = (low - EDGE_SLACK).ceil().clamp(0.0, last);
+        let high = (high + EDGE_SLACK).floor().clamp(0.0, last);
+        low as u32..=high as u32
+    };
+    let [a, b, c] = *corners;
+    let sides = [b.cross(c), c.cross(a), a.cross(b)];
+    let volume = a.dot(sides[0]);
+    for row in range(down) {
+        for column in range(right) {
+            let [x, y] = [column, row].map(|texel| coordinate(texel, size));
+            let direction = axis + x * right + y * down;
+            let weights = sides.map(|side| side.dot(direction));
+            let sum = weights[0] + weights[1] + weights[2];
+            if sum * volume <= 0.0 || weights.iter().any(|w| w / sum < -EDGE_SLACK) {
+                continue;
+            }
+            let normal = (0..3)
+                .map(|i| normals[i] * (weights[i] / sum))
+                .sum::<DVec3>();
+            texels[(row * size + column) as usize] = Some(Texel {
+                position: direction * (volume / sum),
+                normal: normal.normalize_or_zero(),
+            });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{DMat3, Vec3};
+
+    use super::*;
+
+    const SIZE: u32 = 17;
+
+    fn ellipsoid() -> Shape {
+        Shape::Ellipsoid {
+            center: DVec3::new(0.3, -2.0, 1.0),
+            radii: DVec3::new(1.5, 0.7, 1.0),
+            rotation: DMat3::from_rotation_y(0.4),
+        }
+    }
+
+    fn direction(index: usize) -> DVec3 {
+        let texel = index as u32 % (SIZE * SIZE);
+        let [axis, right, down] = face_axes(index as u32 / (SIZE * SIZE));
+        axis + coordinate(texel % SIZE, SIZE) * right + coordinate(texel / SIZE, SIZE) * down
+    }
+
+    #[test]
+    fn texels_lie_on_the_surface_in_their_direction() {
+        let shape = ellipsoid();
+        let maps = Maps::new(&shape, SIZE);
+        assert_eq!(maps.positions.len(), 6 * 17 * 17);
+        for (index, (position, normal)) in maps.positions.iter().zip(&maps.normals).enumerate() {
+            let position = Vec3::from_slice(position).as_dvec3();
+            assert!(position.angle_between(direction(index)) < 1e-6);
+            let expected = shape.normal_at(shape.center() + position);
+            let normal = Vec3::from_slice(normal).as_dvec3();
+            assert!(expected.is_some_and(|expected| expected.distance(normal) < 1e-6));
+        }
+    }
+
+    #[test]
+    fn a_fine_mesh_gives_nearly_the_maps_of_its_surface() {
+        // A chord of 1/48 of a turn leaves the surface by 1.5 · (1 − cos(π/48)) ≈ 0.0032 at most,
+        // and a facet has one along the ring and one across.
+        const CHORD: f32 = 0.0065;
+        let shape = ellipsoid();
+        let mesh = Shape::Mesh(shape.tessellate(48));
+        assert_eq!(objection(&mesh), None);
+        let (exact, drawn) = (Maps::new(&shape, SIZE), Maps::new(&mesh, SIZE));
+        let gap = |a: &[[f32; 4]], b: &[[f32; 4]]| {
+            let pairs = a.iter().zip(b);
+            let gaps = pairs.map(|(a, b)| Vec3::from_slice(a).distance(Vec3::from_slice(b)));
+            gaps.fold(0.0, f32::max)
+        };
+        let positions = gap(&exact.positions, &drawn.positions);
+        assert!(positions < CHORD, "{positions}");
+        // The normal of a chord's middle is interpolated over it and turns with the curvature.
+        let normals = gap(&exact.normals, &drawn.normals);
+        assert!(normals < 4.0 * CHORD, "{normals}");
+    }
+
+    #[test]
+    fn open_concave_and_winding_mirrors_are_refused() {
+        let plane = Shape::Plane {
+            center: DVec3::ZERO,
+            normal: DVec3::Y,
+            up: DVec3::X,
+            size: glam::DVec2::ONE,
+        };
+        assert!(objection(&plane).is_some_and(|reason| reason.contains("closed")));
+        let mut open = ellipsoid().tessellate(16);
+        open.triangles.pop();
+        open.normals.pop();
+        assert!(objection(&Shape::Mesh(open)).is_some_and(|reason| reason.contains("closed")));
+        let mut inside = ellipsoid().tessellate(16);
+        for normal in inside.normals.as_flattened_mut() {
+            *normal = -*normal;
+        }
+        assert!(objection(&Shape::Mesh(inside)).is_some_and(|reason| reason.contains("whole")));
+        let mut dented = ellipsoid().tessellate(16);
+        dented.positions[0] = Vec3::new(0.3, -2.6, 1.0);
+        assert!(objection(&Shape::Mesh(dented)).is_some_and(|reason| reason.contains("whole")));
+    }
+}

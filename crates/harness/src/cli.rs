@@ -94,6 +94,14 @@ pub enum Command {
         /// What is judged
         test: PathBuf,
     },
+    /// The short table of a recorded run (Markdown), on stdout or spliced into a text
+    Summary {
+        /// A run's record.json
+        record: PathBuf,
+        /// Text with the lines `<!-- summary: begin -->` and `<!-- summary: end -->`
+        #[arg(long, value_name = "FILE")]
+        into: Option<PathBuf>,
+    },
     /// Describe the graphics adapter and test its clock
     Doctor,
 }
@@ -117,6 +125,10 @@ pub struct CompareArgs {
     /// Seconds of timing for each scene, shared by the techniques
     #[arg(long, value_name = "SECONDS", default_value_t = 6.0, value_parser = seconds)]
     pub time_budget: f64,
+    /// Follow so many frames of the scene's motion: jitter and jumps of the reflection points, and
+    /// the cost of a moving frame
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=10_000))]
+    pub frames: Option<u32>,
 }
 
 /// What `bench` is asked.

@@ -23,7 +23,7 @@ pub fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
         setup::check_writable(path)?;
     }
     let timing = Duration::from_secs_f64(args.time_budget);
-    let wanted = setup::product(&args.scenes, &args.techniques, timing);
+    let wanted = setup::product(&args.scenes, &args.techniques, timing, args.frames);
     let setup = Setup::new(&wanted, common)?;
 
     let rows = crate::measure(&setup, |_, rows| match &common.output {

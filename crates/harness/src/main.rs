@@ -13,6 +13,7 @@ mod exit;
 mod gate;
 mod list;
 mod measure;
+mod motion;
 mod pictures;
 mod pipeline;
 mod plot;
@@ -24,6 +25,7 @@ mod report;
 mod schema;
 mod setup;
 mod suites;
+mod summary;
 mod table;
 
 use std::process::ExitCode;
@@ -59,6 +61,7 @@ fn run(Cli { command, common }: Cli) -> anyhow::Result<Outcome> {
         Command::Bench(args) => suites::run(&args, &common),
         Command::Report { suite, time_budget } => report::run(suite, time_budget, &common),
         Command::Diff { reference, test } => diff::run(&reference, &test, &common),
+        Command::Summary { record, into } => summary::run(&record, into.as_deref(), &common),
         Command::Doctor => doctor::run(&common),
     }
 }
@@ -81,6 +84,7 @@ fn measure(
     setup: &Setup,
     mut finished: impl FnMut(Option<Measured<'_, '_>>, &[Record]) -> anyhow::Result<()>,
 ) -> anyhow::Result<Vec<Record>> {
+    setup.begin();
     let mut rows: Vec<Record> = Vec::new();
     for job in &setup.jobs {
         if pipeline::interrupted() {
@@ -119,6 +123,15 @@ fn measure(
             doing("timing");
             let share = techniques.len() as f64 / job.techniques.len() as f64;
             let timed = pipeline::time(&mut rendered, job.timing.mul_f64(share));
+
+            if let Some(frames) = job.frames {
+                for (spec, row) in techniques.iter().zip(&mut rendered) {
+                    doing(&format!("following {spec} over {frames} frames"));
+                    if let Err(blank) = pipeline::follow(row, scene, frames) {
+                        *row = Err(blank);
+                    }
+                }
+            }
 
             let first = rows.len();
             let parts = techniques.iter().zip(&rendered).zip(compared).zip(timed);

@@ -7,11 +7,12 @@ use catoptric_frame::{Frame, Status as Pixel, TrueVertex};
 use catoptric_metrics::{CompareOptions, Comparison, Timing, VertexReport};
 use catoptric_reference::{NotAvailable, RenderOptions, Tracer, Truth as Bounces, true_vertices};
 use catoptric_reflect::{Gpu, Output, Prepared, Spec, Support};
-use catoptric_scene::{LoadOptions, Scene, SceneError};
+use catoptric_scene::{LoadOptions, Scene, SceneError, builtin};
 use glam::DVec2;
 
 use crate::exit::bad_input;
 use crate::measure::{self, Samples};
+use crate::motion::{self, Steadiness};
 use crate::record::{AgainstFull, Raw, Record, Status, Times, Wall, Work};
 
 /// Set by Ctrl-C: what is finished is kept, what is not begun is left out.
@@ -22,12 +23,14 @@ pub fn interrupted() -> bool {
     INTERRUPTED.load(Ordering::Relaxed)
 }
 
-/// Loads a scene. One whose model is missing is no error but has nothing to show, with a reason;
-/// anything else that is wrong is the user's to mend.
+/// Loads a scene. A built-in one whose model is missing is no error but has nothing to show, with a
+/// reason; anything else that is wrong is the user's to mend.
 pub fn load(name: &str, options: &LoadOptions) -> anyhow::Result<Result<Scene, String>> {
     match catoptric_scene::open(name, options) {
         Ok(scene) => Ok(Ok(scene)),
-        Err(error @ SceneError::MissingModel { .. }) => Ok(Err(error.to_string())),
+        Err(error @ SceneError::MissingModel { .. }) if builtin::text(name).is_some() => {
+            Ok(Err(error.to_string()))
+        }
         Err(error) => Err(error.into()),
     }
 }
@@ -37,15 +40,24 @@ pub fn size(scene: &Scene) -> [u32; 2] {
     scene.camera.resolution
 }
 
-/// Refuses a picture that cannot be rendered.
+/// Pixels of a picture at most, enough for 7680×4320: with all layers, of several renderers, a
+/// pixel takes some hundred bytes of memory.
+const MOST_PIXELS: u64 = 1 << 25;
+
+/// Refuses a picture that cannot be rendered: sides up to `limit`, [`MOST_PIXELS`] in all.
 pub fn check_size(size: [u32; 2], limit: u32, whose: &str) -> anyhow::Result<()> {
-    if size[0].max(size[1]) > limit {
-        let [width, height] = size;
-        return Err(bad_input(format!(
-            "a picture of {width}x{height} pixels is too large: {whose} ends at {limit}"
-        )));
+    let [width, height] = size;
+    let too_large = |why: String| {
+        let text = format!("a picture of {width}x{height} pixels is too large: {why}");
+        Err(bad_input(text))
+    };
+    if width.max(height) > limit {
+        too_large(format!("{whose} ends at {limit} a side"))
+    } else if u64::from(width) * u64::from(height) > MOST_PIXELS {
+        too_large(format!("{MOST_PIXELS} are the most"))
+    } else {
+        Ok(())
     }
-    Ok(())
 }
 
 /// What techniques are judged by.
@@ -75,6 +87,8 @@ pub fn trace_reference(scene: &Scene, bounces: u32) -> anyhow::Result<Truth> {
 pub struct Rendered<'g> {
     prepared: Prepared<'g>,
     prepare_ms: f64,
+    /// Over the frames of the scene's motion, once [`follow`] has been there.
+    temporal: Option<Steadiness>,
     /// Picture, vertices, triangles and work.
     pub output: Output,
 }
@@ -95,8 +109,21 @@ pub fn render<'g>(gpu: &'g Gpu, spec: &Spec, scene: &Scene) -> Result<Rendered<'
     Ok(Rendered {
         prepared,
         prepare_ms,
+        temporal: None,
         output,
     })
+}
+
+/// Follows a technique over `frames` frames of the scene's motion.
+pub fn follow(
+    rendered: &mut Result<Rendered<'_>, Blank>,
+    scene: &Scene,
+    frames: u32,
+) -> Result<(), Blank> {
+    if let Ok(rendered) = rendered {
+        rendered.temporal = motion::follow(&mut rendered.prepared, scene, frames)?;
+    }
+    Ok(())
 }
 
 /// What comparing with the truth yields.
@@ -132,7 +159,7 @@ pub fn compare(scene: &Scene, truth: &Truth, output: &Output) -> Result<Compared
 }
 
 /// Whether image point `at` lies on a pixel that shows the mirror of entry `pair`.
-fn in_view(scene: &Scene, frame: &Frame, pair: usize, at: DVec2) -> bool {
+pub fn in_view(scene: &Scene, frame: &Frame, pair: usize, at: DVec2) -> bool {
     let (Some(primary), Some(reflected)) = (&frame.primary, &frame.reflected) else {
         return false;
     };
@@ -198,13 +225,18 @@ pub fn record(
         angular_error_deg: compared.full.angular_error_deg,
     });
     match compared.vertices {
-        Some(Ok(report)) => row.vertices = Some(report),
+        Some(Ok(report)) => {
+            // With a refinement, those are not the scene's vertices alone.
+            let searched = rendered.output.searched;
+            row.vertices = Some(VertexReport { searched, ..report });
+        }
         Some(Err(reason)) => row.meta.notes.push(reason),
         None => {}
     }
     row.meta.notes.extend(rendered.output.notes.iter().cloned());
     row.triangles = rendered.output.triangles.clone();
     row.work = Some(Work::from(&rendered.output));
+    row.temporal = rendered.temporal.clone();
     if let Some(samples) = samples {
         row.time_ms = times(rendered.prepare_ms, &samples);
         row.raw = Some(Raw {

@@ -8,7 +8,7 @@ use std::path::Path;
 use anyhow::Context;
 use catoptric_frame::Triangles;
 use catoptric_metrics::{
-    ColorError, Coverage, Mismatch, NonFinite, Regions, Summary, Temporal, Timing, VertexReport,
+    ColorError, Coverage, Mismatch, NonFinite, Regions, Summary, Timing, VertexReport,
 };
 use catoptric_reflect::Output;
 use serde::ser::SerializeMap;
@@ -16,6 +16,7 @@ use serde::{Serialize, Serializer};
 use serde_json::Value;
 
 use crate::exit::bad_input;
+use crate::motion::Steadiness;
 use crate::schema;
 
 /// Version of the record's shape.
@@ -55,7 +56,7 @@ pub struct Record {
     /// Device-independent cost.
     pub work: Option<Work>,
     /// Steadiness from frame to frame.
-    pub temporal: Option<Temporal>,
+    pub temporal: Option<Steadiness>,
     /// The same judged by the truth `full`.
     pub against_full: Option<AgainstFull>,
     /// What a frame costs.
@@ -279,13 +280,24 @@ pub fn write(rows: &[Record], path: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
+/// What earlier rows must have, so that a record stays readable when fields are added to it.
+fn earlier() -> Value {
+    serde_json::json!({ "type": "array", "items": {
+        "type": "object",
+        "required": ["schema_version", "scene", "technique", "resolution", "status", "meta"],
+        "properties": { "schema_version": { "enum": [SCHEMA_VERSION] },
+                        "scene": { "type": "string" }, "technique": { "type": "string" },
+                        "resolution": { "type": "array" }, "status": { "type": "string" },
+                        "meta": { "type": "object" } } } })
+}
+
 /// Reads earlier rows, to be compared with.
 pub fn read(path: &Path) -> anyhow::Result<Vec<Value>> {
     let text =
         std::fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))?;
     let value: Value = serde_json::from_str(&text)
         .map_err(|error| bad_input(format!("{}: {error}", path.display())))?;
-    if let Some(violation) = schema::violations(&schema::records(), &value).first() {
+    if let Some(violation) = schema::violations(&earlier(), &value).first() {
         return Err(bad_input(format!(
             "{}: not a record: {violation}",
             path.display()

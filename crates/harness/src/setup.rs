@@ -27,15 +27,23 @@ pub struct Wanted {
     pub techniques: Vec<String>,
     /// Timing, shared by the techniques.
     pub timing: Duration,
+    /// Frames of the scene's motion to follow; `None` for the first alone.
+    pub frames: Option<u32>,
 }
 
 /// Every scene with every technique, each scene timed for `timing`.
-pub fn product(scenes: &[String], techniques: &[String], timing: Duration) -> Vec<Wanted> {
+pub fn product(
+    scenes: &[String],
+    techniques: &[String],
+    timing: Duration,
+    frames: Option<u32>,
+) -> Vec<Wanted> {
     let wanted = |scene: &String| Wanted {
         scene: scene.clone(),
         resolution: None,
         techniques: techniques.to_vec(),
         timing,
+        frames,
     };
     scenes.iter().map(wanted).collect()
 }
@@ -50,6 +58,8 @@ pub struct Job {
     pub techniques: Vec<Spec>,
     /// Timing, shared by the techniques.
     pub timing: Duration,
+    /// Frames of the scene's motion to follow; `None` for the first alone.
+    pub frames: Option<u32>,
     /// Picture size asked for.
     resolution: Option<[u32; 2]>,
 }
@@ -86,13 +96,6 @@ impl Setup {
         }
         let rows: usize = jobs.iter().map(|job| job.techniques.len()).sum();
         let progress = Progress::new(2 * rows, common.quiet);
-        if gpu.info().software {
-            let name = &gpu.info().name;
-            progress.remark(&format!(
-                "{name} renders on the CPU: its times say little about a GPU"
-            ));
-        }
-        keep_what_is_finished(&progress);
         Ok(Self {
             jobs,
             gpu,
@@ -100,6 +103,18 @@ impl Setup {
             progress,
             meta: provenance::meta(common.bounces),
         })
+    }
+
+    /// Says what one has to know beforehand, and from now on keeps what is finished when
+    /// interrupted.
+    pub fn begin(&self) {
+        if self.gpu.info().software {
+            let name = &self.gpu.info().name;
+            self.progress.remark(&format!(
+                "{name} renders on the CPU: its times say little about a GPU"
+            ));
+        }
+        keep_what_is_finished(&self.progress);
     }
 
     /// How many rows were asked for.
@@ -172,6 +187,7 @@ impl Job {
             scene: pipeline::load(&wanted.scene, &options)?,
             techniques,
             timing: wanted.timing,
+            frames: wanted.frames,
             resolution,
         })
     }
@@ -223,11 +239,15 @@ pub fn check_writable(path: &Path) -> anyhow::Result<()> {
     }
     match tempfile::NamedTempFile::new_in(folder) {
         Ok(_) => Ok(()),
-        Err(error) => Err(bad_input(format!(
-            "cannot write {}: {error}",
-            path.display()
-        ))),
+        Err(error) => Err(unwritable(path, &error)),
     }
+}
+
+/// That nothing can be written there, without the name of the file that was tried.
+pub fn unwritable(path: &Path, error: &std::io::Error) -> anyhow::Error {
+    let text = error.to_string();
+    let reason = text.split(" at path ").next().unwrap_or_default();
+    bad_input(format!("cannot write {}: {reason}", path.display()))
 }
 
 /// From now on Ctrl-C asks to stop after what is being done, a second one stops at once.

@@ -173,10 +173,11 @@ fn nothing_is_written_where_something_is_refused() {
         ])
         .contains("70000x1")
     );
+    let large = ["reference", "sphere-table", "--resolution", "16384x16384"];
+    assert!(refused(&[&large[..], &["-o", &at("a.exr")]].concat()).contains("too large"));
     assert!(
         refused(&["render", "sphere-table", "-t", "liner", "-o", &at("a.exr")]).contains("linear")
     );
-    assert!(refused(&["report", "-o", "/proc/no/folder"]).contains("/proc/no/folder"));
     std::fs::write(folder.path().join("odd.toml"), "why = \"x\"\nspeed = 3\n")
         .expect("a scene file");
     let message = refused(&["reference", &at("odd.toml"), "-o", &at("a.exr")]);
@@ -185,6 +186,160 @@ fn nothing_is_written_where_something_is_refused() {
         "{message}"
     );
     assert_eq!(files(folder.path()), ["odd.toml"]);
+}
+
+/// A scene that is fine: a quad before a ball, seen at 96×72.
+const SCENE: &str = r#"why = "For tests."
+[camera]
+eye = [0.0, 0.5, 4.0]
+target = [0.0, 0.0, 0.0]
+fov_y = 34.0
+resolution = [96, 72]
+[background]
+color = [0.1, 0.1, 0.1]
+[[object]]
+name = "quad"
+shape = "quad"
+transform = { translate = [0.0, -1.0, 0.0] }
+[[mirror]]
+name = "ball"
+shape = "sphere"
+center = [0.0, 0.0, 0.0]
+radius = 1.0
+"#;
+
+#[test]
+fn a_faulty_scene_is_refused_with_file_line_and_key() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let write =
+        |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect(name);
+    let corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    write("empty.obj", "# nothing\n");
+    write(
+        "nan.obj",
+        &(corners.replace("1 0 0", "nan 0 0") + "f 1 2 3\n"),
+    );
+    write("range.obj", &(corners.to_owned() + "f 1 2 9\n"));
+    let quad = "shape = \"quad\"";
+    // What is replaced by what, and what the message says.
+    let faults: [(&str, &str, &[&str]); 13] = [
+        (
+            quad,
+            "mesh = \"gone.obj\"",
+            &["scene.toml:11:", "`gone.obj`"],
+        ),
+        (quad, "mesh = \"empty.obj\"", &["empty.obj:", "no face"]),
+        (quad, "mesh = \"nan.obj\"", &["nan.obj:2:", "finite"]),
+        (quad, "mesh = \"range.obj\"", &["range.obj:4:", "9"]),
+        (quad, "shape = \"quda\"", &["scene.toml:11:", "`quad`"]),
+        (
+            "radius = 1.0",
+            "radius = 0.0",
+            &["scene.toml:17:", "`radius`"],
+        ),
+        (
+            "radius = 1.0",
+            "raduis = 1.0",
+            &["scene.toml:17:", "`radius`"],
+        ),
+        (
+            "translate = [0.0, -1.0, 0.0]",
+            "scale = 0.0",
+            &["scene.toml:12:", "`scale`"],
+        ),
+        (
+            "eye = [0.0, 0.5, 4.0]",
+            "eye = [0.0, 0.5, 0.1]",
+            &["scene.toml:3:", "`eye`"],
+        ),
+        (
+            "eye = [0.0, 0.5, 4.0]",
+            "eye = [0.0, nan, 4.0]",
+            &["scene.toml:3:", "`eye`"],
+        ),
+        ("[96, 72]", "[0, 72]", &["scene.toml:6:", "`resolution`"]),
+        (
+            "[96, 72]",
+            "[20000, 72]",
+            &["scene.toml:6:", "`resolution`"],
+        ),
+        ("fov_y = 34.0", "fov_y = 34.0.0", &["scene.toml:5:"]),
+    ];
+    for (part, fault, says) in faults {
+        write("scene.toml", &SCENE.replacen(part, fault, 1));
+        let message = refused(&["reference", &at("scene.toml"), "-o", &at("a.exr")]);
+        for text in says {
+            assert!(message.contains(text), "{fault}: {message}");
+        }
+        assert_eq!(message.lines().count(), 1, "{fault}: {message}");
+    }
+    let mut kept = files(folder.path());
+    kept.sort_unstable();
+    assert_eq!(kept, ["empty.obj", "nan.obj", "range.obj", "scene.toml"]);
+}
+
+#[test]
+fn a_mirror_outside_the_view_is_a_picture_without_one() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let text = SCENE.replace("center = [0.0, 0.0, 0.0]", "center = [50.0, 0.0, 0.0]");
+    std::fs::write(folder.path().join("scene.toml"), text).expect("a scene file");
+    let output = catoptric(&["reference", &at("scene.toml"), "-o", &at("a.exr")]);
+    assert_eq!(code(&output), 0, "{output:?}");
+    assert!(
+        stderr(&output).contains("no mirror is in view"),
+        "{output:?}"
+    );
+    let facts = json(&catoptric(&[
+        "diff",
+        &at("a.exr"),
+        &at("a.exr"),
+        "--format",
+        "json",
+    ]));
+    assert_eq!(facts["coverage"]["mirror_pixels"], 0);
+    assert!(
+        facts["object_agreement"].is_null() && facts["color"].is_null(),
+        "{facts}"
+    );
+}
+
+#[test]
+fn without_a_driver_the_package_is_named() {
+    let run = |args: &[&str]| {
+        std::process::Command::new(env!("CARGO_BIN_EXE_catoptric"))
+            .args(args)
+            .env("VK_ICD_FILENAMES", "/nonexistent")
+            .env("VK_DRIVER_FILES", "/nonexistent")
+            .output()
+            .expect("the program starts")
+    };
+    let adapters = json(&run(&["list", "adapters", "--format", "json"]));
+    if adapters.as_array().is_none_or(|found| !found.is_empty()) {
+        eprintln!("skipped: an adapter that needs no Vulkan driver: {adapters}");
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("out");
+    let to = path.to_string_lossy();
+    for args in [
+        ["compare", "sphere-square", "-t", "linear", "-o", &to].as_slice(),
+        &["report", "-o", &to],
+        &["bench", "search", "-o", &to],
+        &["doctor"],
+    ] {
+        let output = run(args);
+        assert_eq!((code(&output), stdout(&output)), (3, ""), "{output:?}");
+        assert!(stderr(&output).contains("adapter"), "{output:?}");
+        if cfg!(target_os = "linux") {
+            assert!(
+                stderr(&output).contains("mesa-vulkan-drivers"),
+                "{output:?}"
+            );
+        }
+        assert!(!path.exists(), "{args:?} leaves nothing behind");
+    }
 }
 
 #[test]

@@ -270,6 +270,47 @@ fn a_suite_on_a_scene_of_ones_own_is_one_folder() {
 }
 
 #[test]
+fn frames_give_jitter_and_a_still_scene_has_none() {
+    if !gpu_or_skip() {
+        return;
+    }
+    let args = ["compare", "sphere-table", "-t", "linear(start=previous)"];
+    let more = ["--frames", "3", "--time-budget", "0.1", "--format", "json"];
+    let output = catoptric(&[args.as_slice(), &more, SIZE.as_slice()].concat());
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let rows = json(&output);
+    let temporal = &rows[0]["temporal"];
+    assert_eq!(temporal["frames"], 3);
+    assert_eq!(temporal["jitter_px"]["max"], 0.0, "{temporal}");
+    assert_eq!(temporal["jumps"], 0.0);
+    // From its own last answer a walk looks at its neighbours, four at most, once and stays.
+    assert_eq!(temporal["steps"], 1.0, "{temporal}");
+    assert!(temporal["evaluations"].as_f64() <= Some(5.0), "{temporal}");
+    let violations = schema::violations(&schema::records(), &rows);
+    assert_eq!(violations, Vec::<String>::new());
+}
+
+#[test]
+fn nothing_is_left_where_nothing_can_be_written() {
+    if !gpu_or_skip() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("file");
+    std::fs::write(&file, "kept").expect("a file");
+    let below = file.join("out").to_string_lossy().into_owned();
+    let file = file.to_string_lossy().into_owned();
+    for path in [&file, &below] {
+        for command in [&["report"][..], &["bench", "search"]] {
+            let output = catoptric(&[command, &["--quiet", "-o", path]].concat());
+            assert_eq!((code(&output), stdout(&output)), (2, ""), "{output:?}");
+            assert!(stderr(&output).contains(path.as_str()), "{output:?}");
+        }
+    }
+    assert_eq!(std::fs::read_to_string(&file).ok().as_deref(), Some("kept"));
+}
+
+#[test]
 fn doctor_tests_the_clock() {
     if !gpu_or_skip() {
         return;

@@ -158,6 +158,41 @@ pub fn mean_work(results: &[VertexResult]) -> Option<Work> {
     })
 }
 
+/// Found − true in pixels for every (object vertex, mirror) pair, to be followed over frames by
+/// [`temporal`](crate::temporal()); `None` where no true point is in view or nothing was found. Where
+/// there are several solutions, the pair of found and true point that is nearest to each other.
+///
+/// Arguments as for [`vertex_report`].
+pub fn vertex_errors(
+    results: &[VertexResult],
+    truth: &[TrueVertex],
+    in_view: impl Fn(usize, DVec2) -> bool,
+) -> Result<Vec<Option<DVec2>>, MetricsError> {
+    let groups: Vec<&[VertexResult]> = results.chunk_by(same_pair).collect();
+    if groups.len() != truth.len() {
+        return Err(MetricsError::Length {
+            results: groups.len(),
+            truth: truth.len(),
+        });
+    }
+    let pairs = groups.into_iter().zip(truth).enumerate();
+    Ok(pairs
+        .map(|(pair, (group, truth))| {
+            let projected = || truth.points.iter().filter_map(|(_, q)| *q);
+            if !projected().any(|q| in_view(pair, q)) {
+                return None;
+            }
+            let found = group
+                .iter()
+                .filter(|result| result.state != VertexState::Failed && result.at.is_finite())
+                .map(|result| result.at.as_dvec2());
+            found
+                .flat_map(|found| projected().map(move |q| found - q))
+                .min_by(|a, b| a.length_squared().total_cmp(&b.length_squared()))
+        })
+        .collect())
+}
+
 fn has_failed(result: &VertexResult) -> bool {
     result.state == VertexState::Failed || result.stand_in
 }

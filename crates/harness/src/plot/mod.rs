@@ -14,10 +14,10 @@ use plotters::prelude::*;
 
 use self::axis::Extent;
 
-/// Colours of the series, told apart by the colour-blind (Okabe and Ito), readable on light and
-/// dark.
+/// Colours of the series, told apart by the colour-blind (after Okabe and Ito), with a contrast of
+/// at least 3 on light and on dark paper.
 pub const SERIES: [&str; 7] = [
-    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b08a00", "#56b4e9", "#8a8a8a",
+    "#2a86c8", "#dd6a13", "#1a9f7a", "#c86fa0", "#a98500", "#7f74d8", "#858585",
 ];
 
 /// Width of every plot, in its own units.

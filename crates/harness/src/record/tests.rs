@@ -1,7 +1,7 @@
 //! Records for tests of whatever reads records.
 
 use catoptric_frame::Triangles;
-use catoptric_metrics::{Discard, Jitter, OffsetShare, Region};
+use catoptric_metrics::{Discard, Jitter, OffsetShare, Region, Temporal};
 use serde_json::json;
 
 use super::*;
@@ -103,14 +103,19 @@ pub fn measured(scene: &str, technique: &str) -> Record {
             samples: Some(0.0),
             skips: Some(0.0),
         }),
-        temporal: Some(Temporal {
-            frames: 10,
-            jitter_px: Some(Jitter {
-                mean: 0.1,
-                p99: 0.5,
-                max: 1.0,
-            }),
-            jumps: Some(0.0),
+        temporal: Some(Steadiness {
+            points: Temporal {
+                frames: 10,
+                jitter_px: Some(Jitter {
+                    mean: 0.1,
+                    p99: 0.5,
+                    max: 1.0,
+                }),
+                jumps: Some(0.0),
+            },
+            frame_ms: Some(1.0),
+            evaluations: Some(5.0),
+            steps: Some(1.0),
         }),
         against_full: Some(AgainstFull {
             object_agreement: Some(0.97),

@@ -3,6 +3,7 @@
 //! Measuring writes `record.json` and pictures into the folder, after every scene; the page is
 //! made from those alone, so that the same record gives the same bytes.
 
+mod diagrams;
 pub mod page;
 pub mod pictures;
 mod views;
@@ -30,8 +31,14 @@ const QUICK_SCENES: [&str; 8] = [
     "sphere-touching",
 ];
 
-/// The published search, and ours with the residual that 32 bits can resolve.
-const TECHNIQUES: [&str; 2] = ["linear", "linear(residual=cross,neighbours=8)"];
+/// The published search, the same with the residual that 32 bits can resolve, the mirrored eye for
+/// flat mirrors, and the control.
+const TECHNIQUES: [&str; 4] = [
+    "linear",
+    "linear(residual=cross,neighbours=8)",
+    "planar",
+    words::CONTROL,
+];
 
 /// Seconds of timing in a whole quick suite: with all else it stays within three minutes.
 const QUICK_TIMING: f64 = 40.0;
@@ -66,7 +73,7 @@ pub fn run(suite: SuiteArg, time_budget: Option<f64>, common: &Common) -> anyhow
     };
     let techniques = TECHNIQUES.map(str::to_owned);
     let timing = Duration::from_secs_f64(time_budget.unwrap_or(budget));
-    let setup = Setup::new(&setup::product(&scenes, &techniques, timing), &common)?;
+    let setup = Setup::new(&setup::product(&scenes, &techniques, timing, None), &common)?;
     make_folder(&folder)?;
 
     let record_path = folder.join("record.json");
@@ -108,9 +115,11 @@ fn available(common: &Common) -> Vec<String> {
 
 /// Makes the report's folder; where an earlier report is in it, without that one's pictures.
 pub fn make_folder(folder: &Path) -> anyhow::Result<()> {
-    let unwritable = |error: std::io::Error| {
-        bad_input(format!("cannot write into {}: {error}", folder.display()))
-    };
+    if folder.is_file() {
+        let text = format!("cannot write into {}: it is a file", folder.display());
+        return Err(bad_input(text));
+    }
+    let unwritable = |error: std::io::Error| setup::unwritable(folder, &error);
     std::fs::create_dir_all(folder).map_err(unwritable)?;
     tempfile::NamedTempFile::new_in(folder).map_err(unwritable)?;
     let pictures = folder.join(pictures::FOLDER);

@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use askama::Template;
+use catoptric_metrics::CoverageClass;
 
 use crate::record::{Record, Status};
 
 use super::views::{self, SUMMARY, Scene, SummaryRow};
-use super::{pictures, words};
+use super::{diagrams, pictures, words};
 
 /// A name and what belongs to it.
 pub struct Fact {
@@ -24,6 +25,7 @@ pub struct Fact {
 #[template(path = "report.html")]
 struct Page<'r> {
     lead: Vec<String>,
+    noise_floor: Option<String>,
     hero: Option<Hero<'r>>,
     headings: &'static [(&'static str, &'static str)],
     summary: Vec<SummaryRow>,
@@ -73,10 +75,11 @@ pub fn render(rows: &[Record]) -> anyhow::Result<String> {
     });
     let page = Page {
         lead: words::lead(rows, &techniques),
+        noise_floor: words::noise_floor(rows),
         hero,
         headings: &SUMMARY,
         summary: views::summary(rows, &techniques),
-        scatter: views::error_against_time(rows, &techniques).inline()?,
+        scatter: diagrams::error_against_time(rows, &techniques).inline()?,
         scenes: &scenes,
         angle_labels: &pictures::ANGLE_LABELS,
         scale: pictures::SCALE,
@@ -93,19 +96,16 @@ pub fn render(rows: &[Record]) -> anyhow::Result<String> {
     page.render().context("filling the report's template")
 }
 
-fn coverage_legend() -> Vec<Fact> {
-    let colors = pictures::coverage_colors();
-    let hex = colors
-        .iter()
-        .map(|[red, green, blue]| format!("#{red:02x}{green:02x}{blue:02x}"));
-    let labels = pictures::COVERAGE_LABELS.iter();
-    labels
-        .zip(hex)
-        .map(|(label, value)| Fact {
-            name: (*label).to_owned(),
-            value,
-        })
-        .collect()
+/// Colours and names of what coverage maps paint.
+pub fn coverage_legend() -> Vec<Fact> {
+    let fact = |(class, name): &(CoverageClass, &str)| {
+        let [red, green, blue] = class.color();
+        Fact {
+            name: (*name).to_owned(),
+            value: format!("#{red:02x}{green:02x}{blue:02x}"),
+        }
+    };
+    pictures::COVERAGE.iter().map(fact).collect()
 }
 
 /// The adapter's name where a CPU plays the GPU.

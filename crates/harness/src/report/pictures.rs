@@ -3,8 +3,12 @@
 use std::path::Path;
 
 use anyhow::Context;
+use catoptric_frame::png::srgb_from_linear;
 use catoptric_frame::{Frame, Image, write_png, write_png_rgb8};
-use catoptric_metrics::{Colormap, MapKind, color_bar, colorize, colorize_coverage, error_map};
+use catoptric_metrics::{
+    Colormap, CoverageClass, MapKind, color_bar, colorize, colorize_coverage, error_map,
+};
+use glam::Vec3;
 
 use crate::Measured;
 use crate::record::Record;
@@ -19,14 +23,13 @@ pub const ANGLES: [f32; 2] = [0.01, 100.0];
 /// Labels from end to end of that scale.
 pub const ANGLE_LABELS: [&str; 5] = ["0.01°", "0.1°", "1°", "10°", "100°"];
 
-/// What the colours of a coverage map mean, by class.
-pub const COVERAGE_LABELS: [&str; 6] = [
-    "right object",
-    "missing",
-    "extra",
-    "wrong object",
-    "missing in a crack",
-    "unresolved",
+/// The classes that a coverage map paints, and what they are called.
+pub const COVERAGE: [(CoverageClass, &str); 5] = [
+    (CoverageClass::Missing, "missing"),
+    (CoverageClass::Extra, "extra"),
+    (CoverageClass::WrongId, "wrong object"),
+    (CoverageClass::Crack, "missing in a crack"),
+    (CoverageClass::Unresolved, "unresolved"),
 ];
 
 /// Paths relative to the report's folder.
@@ -90,14 +93,14 @@ pub fn write(
         )?;
         let frame = &rendered.output.frame;
         write_png(&frame.color, at(&names.technique))?;
-        write_png_rgb8(&angle_map(&measured.truth.first, frame)?, at(&names.angle))?;
-        let coverage = error_map(MapKind::Coverage, &measured.truth.first, frame)?;
-        write_png_rgb8(&colorize_coverage(&coverage), at(&names.coverage))?;
+        let truth = &measured.truth.first;
+        write_png_rgb8(&angle_map(truth, frame)?, at(&names.angle))?;
+        write_png_rgb8(&coverage_map(truth, frame)?, at(&names.coverage))?;
     }
     Ok(())
 }
 
-/// Angular error on the logarithmic scale.
+/// Angular error on the logarithmic scale, on a pale picture where there is none.
 fn angle_map(reference: &Frame, test: &Frame) -> anyhow::Result<Image<[u8; 3]>> {
     let map = error_map(MapKind::Angular, reference, test)?;
     // An angle of 0 is painted as the smallest; NaN (nothing to compare) stays NaN.
@@ -108,16 +111,43 @@ fn angle_map(reference: &Frame, test: &Frame) -> anyhow::Result<Image<[u8; 3]>> 
             angle.log10()
         }
     });
-    Ok(colorize(&decades, ANGLES.map(f32::log10), Colormap::Magma))
+    let painted = colorize(&decades, ANGLES.map(f32::log10), Colormap::Magma);
+    Ok(on_pale(painted, &map, reference, |angle| angle.is_nan()))
 }
 
-/// Colours of the coverage classes as the maps have them, in the order of [`COVERAGE_LABELS`].
-pub fn coverage_colors() -> Vec<[u8; 3]> {
-    let codes = (0..COVERAGE_LABELS.len()).map(|code| code as f32).collect();
-    colorize_coverage(&Image::from_vec([COVERAGE_LABELS.len() as u32, 1], codes))
-        .pixels()
-        .to_vec()
+/// Missing, extra and wrong pixels, on a pale picture where all is right.
+fn coverage_map(reference: &Frame, test: &Frame) -> anyhow::Result<Image<[u8; 3]>> {
+    let map = error_map(MapKind::Coverage, reference, test)?;
+    let right = CoverageClass::Agree as u8;
+    let pale = |code: f32| code.is_nan() || code == f32::from(right);
+    Ok(on_pale(colorize_coverage(&map), &map, reference, pale))
 }
+
+/// Range of grey of the pale picture: neither the dark nor the light end of a map's colours.
+const PALE: [f32; 2] = [150.0, 225.0];
+
+/// Replaces a map, where `pale` says so of its value, by the reference without colour or contrast,
+/// so that one sees where on the picture the errors are.
+fn on_pale(
+    painted: Image<[u8; 3]>,
+    map: &Image<f32>,
+    reference: &Frame,
+    pale: impl Fn(f32) -> bool,
+) -> Image<[u8; 3]> {
+    let pixels = painted.pixels().iter().zip(map.pixels());
+    let pixels = pixels.zip(reference.color.pixels());
+    let pixels = pixels.map(|((painted, value), color)| {
+        if !pale(*value) {
+            return *painted;
+        }
+        let luma = srgb_from_linear(color.dot(LUMA).clamp(0.0, 1.0));
+        [(PALE[0] + luma * (PALE[1] - PALE[0])).round() as u8; 3]
+    });
+    Image::from_vec(painted.size(), pixels.collect())
+}
+
+/// Weights of linear red, green and blue in what looks bright (Rec. 709).
+const LUMA: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
 
 #[cfg(test)]
 mod tests {
@@ -137,11 +167,19 @@ mod tests {
     }
 
     #[test]
-    fn classes_have_colours_of_their_own() {
-        let colors = coverage_colors();
-        let mut distinct = colors.clone();
-        distinct.sort_unstable();
-        distinct.dedup();
-        assert_eq!(distinct.len(), COVERAGE_LABELS.len());
+    fn maps_are_pale_where_they_have_nothing_to_say() {
+        let color = Image::filled([2, 1], Vec3::splat(0.5));
+        let reference = Frame {
+            color,
+            primary: None,
+            reflected: None,
+            names: Vec::new(),
+        };
+        let painted = Image::filled([2, 1], [255, 0, 0]);
+        let map = Image::from_vec([2, 1], vec![f32::NAN, 1.0]);
+        let picture = on_pale(painted, &map, &reference, f32::is_nan);
+        let [red, green, blue] = *picture.at(0, 0);
+        assert!(red == green && green == blue && f32::from(red) > PALE[0]);
+        assert_eq!(*picture.at(1, 0), [255, 0, 0]);
     }
 }

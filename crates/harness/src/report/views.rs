@@ -1,9 +1,10 @@
 //! The record as the page's template wants it: text that is ready to be shown.
 
-use crate::plot::{Axis, Plot, Point, SERIES, Scale, Series, TALL};
+use crate::plot::SERIES;
 use crate::print::significant;
 use crate::record::{Record, Status};
 
+use super::diagrams;
 use super::page::Fact;
 use super::pictures::{self, Names};
 use super::words::{self, count, or_dash, percent, share};
@@ -16,7 +17,7 @@ pub struct SummaryRow {
     pub anchor: String,
     /// True at a scene's first technique.
     pub first: bool,
-    /// The technique.
+    /// The technique; HTML.
     pub technique: String,
     /// The technique's colour.
     pub color: &'static str,
@@ -97,6 +98,8 @@ pub struct Technique {
     pub names: Names,
     /// What the numbers mean; HTML.
     pub sentences: Vec<String>,
+    /// Counted work, which is the same on every adapter.
+    pub work: Vec<Fact>,
     /// The numbers.
     pub facts: Vec<Fact>,
     /// Time by pass.
@@ -161,7 +164,7 @@ pub fn summary(rows: &[Record], techniques: &[String]) -> Vec<SummaryRow> {
                 scene: row.scene.clone(),
                 anchor: pictures::slug(&row.scene),
                 first,
-                technique: row.technique.clone(),
+                technique: words::breakable(&row.technique),
                 color: color(&row.technique, techniques),
                 cells: if row.status == Status::Ok {
                     cells(row)
@@ -245,7 +248,7 @@ fn scene(name: &str, rows: &[&Record], techniques: &[String]) -> anyhow::Result<
     let [width, height] = rows.first().map_or([0, 0], |row| row.resolution);
     let samples = match measured.as_slice() {
         [] => None,
-        measured => distribution(measured, techniques).inline()?,
+        measured => diagrams::distribution(measured, techniques).inline()?,
     };
     Ok(Scene {
         samples,
@@ -277,6 +280,7 @@ fn technique(row: &Record, techniques: &[String]) -> Technique {
         color: color(&row.technique, techniques),
         names: pictures::names(row),
         sentences: words::sentences(row),
+        work: work(row),
         facts: facts(row),
         passes: times
             .and_then(|times| times.passes.as_deref())
@@ -308,6 +312,39 @@ fn passes(passes: &[(String, f64)]) -> Vec<Pass> {
             pass
         })
         .collect()
+}
+
+fn work(row: &Record) -> Vec<Fact> {
+    let work = row.work.unwrap_or_default();
+    let (vertices, triangles) = (row.vertices.as_ref(), row.triangles.as_ref());
+    let per = if vertices.is_some() {
+        "vertex"
+    } else {
+        "mirror pixel"
+    };
+    let whole = |value: Option<u64>| value.map(count);
+    let mean = |value: Option<f64>| value.map(significant);
+    let named = [
+        ("vertices searched", whole(vertices.map(|v| v.searched))),
+        ("truly reflected", whole(vertices.map(|v| v.reflected))),
+        ("search failed", whole(vertices.map(|v| v.failed))),
+        ("evaluations", mean(work.evaluations)),
+        ("steps", mean(work.steps)),
+        ("node tests", mean(work.node_tests)),
+        ("samples", mean(work.samples)),
+        ("skips", mean(work.skips)),
+        ("triangles in", whole(triangles.map(|t| t.input))),
+        ("triangles drawn", whole(triangles.map(|t| t.drawn))),
+    ];
+    let per_one = ["evaluations", "steps", "node tests", "samples", "skips"];
+    let fact = |(name, value): (&str, Option<String>)| {
+        let name = match per_one.contains(&name) {
+            true => format!("{name} a {per}"),
+            false => name.to_owned(),
+        };
+        value.map(|value| Fact { name, value })
+    };
+    named.into_iter().filter_map(fact).collect()
 }
 
 fn facts(row: &Record) -> Vec<Fact> {
@@ -376,22 +413,6 @@ fn facts(row: &Record) -> Vec<Fact> {
             format!("{}, {}", count(triangles.input), count(triangles.drawn)),
         );
     }
-    if let Some(work) = row.work {
-        let named = [
-            ("evaluations", work.evaluations),
-            ("steps", work.steps),
-            ("node tests", work.node_tests),
-            ("samples", work.samples),
-            ("skips", work.skips),
-        ];
-        let parts: Vec<String> = named
-            .iter()
-            .filter_map(|(name, value)| value.map(|value| format!("{} {name}", significant(value))))
-            .collect();
-        if !parts.is_empty() {
-            fact("work for each vertex or pixel", parts.join(", "));
-        }
-    }
     if let Some(times) = &row.time_ms {
         if let Some(frame) = times.frame {
             let parts = [frame.p5, frame.median, frame.p95].map(significant);
@@ -410,91 +431,4 @@ fn facts(row: &Record) -> Vec<Fact> {
         );
     }
     facts
-}
-
-/// Median angular error against the time of a frame, a point a row; only the first technique's
-/// points are named, as those of a scene lie side by side.
-pub fn error_against_time(rows: &[Record], techniques: &[String]) -> Plot {
-    let point = |row: &Record| {
-        let times = row.time_ms.as_ref()?;
-        let x = times.frame.map_or(times.wall.median, |frame| frame.median);
-        let y = row.angular_error_deg?.p50;
-        Some(Point {
-            x,
-            y,
-            name: if techniques.first() == Some(&row.technique) {
-                row.scene.clone()
-            } else {
-                String::new()
-            },
-            label: format!(
-                "{}, {}: {} ms, {}°",
-                row.scene,
-                row.technique,
-                significant(x),
-                significant(y)
-            ),
-        })
-    };
-    let series = |technique: &String| Series {
-        label: technique.clone(),
-        points: rows
-            .iter()
-            .filter(|row| row.technique == *technique)
-            .filter_map(point)
-            .collect(),
-    };
-    Plot {
-        title: "Median angular error against the time of a frame".to_owned(),
-        x: Axis::log("time of a frame (ms)"),
-        y: Axis::log("median angular error (°)"),
-        series: techniques.iter().map(series).collect(),
-        height: TALL,
-        joined: false,
-    }
-}
-
-/// Every timing sample of a scene's rows: how steady the times are, and whether they overlap.
-pub fn distribution(rows: &[&Record], techniques: &[String]) -> Plot {
-    let samples = |technique: &String| {
-        let row = rows.iter().find(|row| row.technique == *technique);
-        let raw = row.and_then(|row| row.raw.as_ref());
-        raw.map_or(&[][..], |raw| match raw.frame_ms.is_empty() {
-            true => &raw.wall_ms,
-            false => &raw.frame_ms,
-        })
-    };
-    let series = techniques.iter().enumerate().map(|(place, technique)| {
-        let level = (techniques.len() - 1 - place) as f64;
-        let points = samples(technique).iter().zip(0..).map(|(time, sample)| {
-            // Samples step up and down a little, so that equal times are seen apart.
-            let aside = [0.0, 0.2, -0.1, 0.1, -0.2][sample % 5];
-            Point {
-                x: *time,
-                y: level + aside,
-                name: String::new(),
-                label: format!(
-                    "{technique}, sample {}: {} ms",
-                    sample + 1,
-                    significant(*time)
-                ),
-            }
-        });
-        Series {
-            label: technique.clone(),
-            points: points.collect(),
-        }
-    });
-    let series: Vec<Series> = series.collect();
-    Plot {
-        title: "Every timing sample".to_owned(),
-        x: Axis::linear("time of a frame (ms), every sample"),
-        y: Axis {
-            label: String::new(),
-            scale: Scale::Names(vec![String::new(); series.len()]),
-        },
-        height: 76 + 30 * series.len() as u32,
-        series,
-        joined: false,
-    }
 }

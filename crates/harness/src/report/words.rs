@@ -88,10 +88,16 @@ fn agreement(row: &Record) -> Option<String> {
         .filter(|mismatch| mismatch.boundary + mismatch.interior > 0.0)
     {
         let boundary = mismatch.boundary / (mismatch.boundary + mismatch.interior);
-        text += &format!(
-            "; {} of the others lie at the outline of a reflected object, where half a pixel decides",
-            percent(boundary)
-        );
+        text += &match boundary {
+            0.5.. => format!(
+                "; {} of the others lie at the outline of a reflected object, where half a pixel decides",
+                percent(boundary)
+            ),
+            _ => format!(
+                "; {} of the others lie inside the outlines, where whole pieces are missing or wrong",
+                percent(1.0 - boundary)
+            ),
+        };
     }
     Some(text + ".")
 }
@@ -171,6 +177,14 @@ fn vertices(row: &Record) -> Option<String> {
             } else {
                 ", where choosing the nearest whole pixel would give 0.38 px"
             };
+            let far = vertices.offset_share.map_or(0.0, |share| share.over_5);
+            if far > 0.01 {
+                text += &format!(
+                    ". For {} of them it is more than 5 px: a walk from texel to texel ends where no \
+                     neighbour is better, and it cannot cross an object that covers a part of the mirror",
+                    percent(far)
+                );
+            }
         }
         None if vertices.reflected > 0 => text += ", none of which was found",
         None => {}
@@ -267,10 +281,34 @@ pub fn time_difference(a: &Record, b: &Record) -> Option<String> {
     })
 }
 
+/// The technique that traces the reference's own rays on the graphics adapter.
+pub const CONTROL: &str = "ray-trace";
+
+/// What the control does not match: less than that, a difference between a technique and the
+/// truth says nothing. `None` where the control was not measured.
+pub fn noise_floor(rows: &[Record]) -> Option<String> {
+    let control = || rows.iter().filter(|row| row.technique == CONTROL);
+    let agreement = control().filter_map(|row| row.object_agreement);
+    let agreement = agreement.reduce(f64::min)?;
+    let angle = control().filter_map(|row| Some(row.angular_error_deg?.p99));
+    let angle = angle.reduce(f64::max).map_or_else(String::new, |angle| {
+        format!(
+            " and 99 % of its points lie within {}° of the true ones",
+            short(angle)
+        )
+    });
+    Some(format!(
+        "The control, the reference's rays traced on the graphics adapter, shows the right object on {} of the \
+         mirror pixels or more{angle}: differences below that are the measurement's own noise.",
+        percent(agreement)
+    ))
+}
+
 /// The page's first paragraph: how good each technique is over all scenes.
 pub fn lead(rows: &[Record], techniques: &[String]) -> Vec<String> {
     techniques
         .iter()
+        .filter(|technique| *technique != CONTROL)
         .filter_map(|technique| {
             let mut found: Vec<(f64, &str)> = rows
                 .iter()
@@ -289,6 +327,14 @@ pub fn lead(rows: &[Record], techniques: &[String]) -> Vec<String> {
             })
         })
         .collect()
+}
+
+/// A technique's name in HTML, which may be broken between its options.
+pub fn breakable(name: &str) -> String {
+    let text = escape(name);
+    ["(", ",", "+"].iter().fold(text, |text, sign| {
+        text.replace(sign, &format!("{sign}<wbr>"))
+    })
 }
 
 /// Text as it may stand in HTML.

@@ -47,6 +47,9 @@ pub struct Point {
     pub resolution: Option<[u32; 2]>,
     /// Name, with options.
     pub technique: String,
+    /// Frames of the scene's motion to follow (the record's `temporal`); the largest of a scene's
+    /// points holds for all of them.
+    pub frames: Option<u32>,
     /// Whether its pictures come on the page.
     pub picture: bool,
 }
@@ -59,6 +62,7 @@ impl Point {
             scene: scene.into(),
             resolution: None,
             technique: technique.into(),
+            frames: None,
             picture: false,
         }
     }

@@ -16,13 +16,18 @@ pub fn wanted(figures: &[Figure], timing: f64) -> Vec<Wanted> {
             .iter_mut()
             .find(|job| job.scene == point.scene && job.resolution == point.resolution);
         match job {
-            Some(job) if job.techniques.contains(&point.technique) => {}
-            Some(job) => job.techniques.push(point.technique.clone()),
+            Some(job) => {
+                job.frames = job.frames.max(point.frames);
+                if !job.techniques.contains(&point.technique) {
+                    job.techniques.push(point.technique.clone());
+                }
+            }
             None => jobs.push(Wanted {
                 scene: point.scene.clone(),
                 resolution: point.resolution,
                 techniques: vec![point.technique.clone()],
                 timing: Duration::ZERO,
+                frames: point.frames,
             }),
         }
     }

@@ -1,0 +1,92 @@
+//! `--frames N`: a technique followed over the frames of a scene's motion.
+//!
+//! Frame 0 is the scene as written. Each technique walks through the frames twice: once with all
+//! layers, where each vertex' error (found − true, in pixels) is followed from frame to frame, and
+//! once as an application would draw, to be timed. Where something is carried from one frame to
+//! the next (`start=previous`), it is so in both.
+
+use catoptric_frame::Frame;
+use catoptric_metrics::{Temporal, Timing, temporal, vertex_errors};
+use catoptric_reference::true_vertices;
+use catoptric_reflect::{Output, Prepared};
+use catoptric_scene::Scene;
+use serde::Serialize;
+
+use crate::pipeline::{self, Blank, in_view, one_line};
+use crate::record::Status;
+
+/// The record's `temporal`: how steady a technique is while things move, and what that costs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Steadiness {
+    /// Jitter and jumps of the reflection points.
+    #[serde(flatten)]
+    pub points: Temporal,
+    /// Median GPU time of a moving frame in milliseconds; `None` without a usable clock.
+    pub frame_ms: Option<f64>,
+    /// Mean evaluations a search, from the second frame on.
+    pub evaluations: Option<f64>,
+    /// Mean steps a search, from the second frame on.
+    pub steps: Option<f64>,
+}
+
+/// Follows a technique over `frames` frames; an interrupt ends the sequence early. `None` where
+/// the technique searches no vertices, or where their exact reflection points are not known.
+pub fn follow(
+    prepared: &mut Prepared<'_>,
+    scene: &Scene,
+    frames: u32,
+) -> Result<Option<Steadiness>, Blank> {
+    let failed = |error: &dyn std::error::Error| (Status::Failed, one_line(error));
+    let mut errors = Vec::new();
+    let (mut evaluations, mut steps) = (Vec::new(), Vec::new());
+    for frame in 0..frames {
+        if pipeline::interrupted() && frame >= 2 {
+            break;
+        }
+        let posed = scene.at(frame);
+        prepared.update(&posed).map_err(|error| failed(&error))?;
+        let output = prepared.render().map_err(|error| failed(&error))?;
+        let Some(found) = frame_errors(&posed, &output).map_err(|error| failed(&error))? else {
+            return Ok(None);
+        };
+        errors.push(found);
+        if frame > 0 {
+            evaluations.push(output.work.evaluations);
+            steps.push(output.work.steps);
+        }
+    }
+    let mut times = Vec::new();
+    for frame in 0..errors.len() as u32 {
+        prepared
+            .update(&scene.at(frame))
+            .map_err(|error| failed(&error))?;
+        let time = prepared.time_frame().map_err(|error| failed(&error))?;
+        times.push(time.gpu_ms);
+    }
+    let times: Option<Vec<f64>> = times.into_iter().collect();
+    prepared.update(scene).map_err(|error| failed(&error))?;
+    let mean = |values: &[f64]| {
+        let sum: f64 = values.iter().sum();
+        (!values.is_empty()).then(|| sum / values.len() as f64)
+    };
+    Ok(Some(Steadiness {
+        points: temporal(&errors),
+        frame_ms: times.and_then(|times| Some(Timing::of(&times)?.median)),
+        evaluations: mean(&evaluations),
+        steps: mean(&steps),
+    }))
+}
+
+/// Found − true of every pair in one frame. The technique's own picture says where its mirrors
+/// are: they are the reference's but for single pixels of their outline.
+fn frame_errors(
+    scene: &Scene,
+    output: &Output,
+) -> Result<Option<Vec<Option<glam::DVec2>>>, catoptric_metrics::MetricsError> {
+    let frame: &Frame = &output.frame;
+    let truth = true_vertices(scene, &scene.camera.view(pipeline::size(scene)));
+    let (Some(results), Ok(truth)) = (&output.vertices, truth) else {
+        return Ok(None);
+    };
+    vertex_errors(results, &truth, |pair, at| in_view(scene, frame, pair, at)).map(Some)
+}

@@ -17,6 +17,7 @@ mod gbuffer;
 pub mod gpu;
 mod image_order;
 mod object_order;
+mod path;
 mod points;
 mod primary;
 mod raster;
@@ -37,6 +38,7 @@ mod twin;
 mod world;
 
 pub use gpu::{AdapterInfo, Gpu, GpuError, Prefer, adapters};
+pub use path::{Visit, path};
 pub use registry::{Family, OptionInfo, TechniqueInfo, Values, list};
 pub use search::reflector_cubemap::walk::{CubemapAnswer, CubemapStep, CubemapWalk};
 pub use spec::{Options, Spec, SpecError, parse};

@@ -9,7 +9,7 @@ use crate::points::points_layout;
 use crate::raster::Raster;
 use crate::recorder::Recorder;
 use crate::refine::{self, Refine};
-use crate::search::{self, Search};
+use crate::search::{self, Account, Search};
 use crate::spec::Spec;
 use crate::stage::Stage;
 use crate::technique::{Output, Technique, Variant};
@@ -38,6 +38,7 @@ pub(crate) fn prepare(
         options: &spec.options,
         stage: &stage,
         points_layout: &points_layout,
+        account: Account::Efforts,
     })?;
     let refine = make_refine(&refine::Context {
         gpu,
@@ -79,6 +80,10 @@ impl Technique for ObjectOrder {
                 .record(frame, &self.stage, search, mirror, variant);
         }
         self.stage.finish(frame);
+    }
+
+    fn carries_over(&self) -> bool {
+        self.search.uses_previous()
     }
 
     fn output(&self, gpu: &Gpu) -> Output {

@@ -284,6 +284,12 @@ fn any_scene(_: &Options, _: &Scene) -> Option<String> {
     None
 }
 
+fn hidden_are_dropped(options: &Options, _: &Scene) -> Option<String> {
+    let reason = "hidden=extend: a hidden vertex lies in no cone of the hierarchy, only a search that \
+                  walks on the mirror can continue it";
+    options.is("hidden", "extend").then(|| reason.to_owned())
+}
+
 const fn later(
     name: &'static str,
     what: &'static str,
@@ -319,7 +325,7 @@ pub const TECHNIQUES: &[TechniqueInfo] = &[
         paper: "Szabo 2013",
         options: &[RAY_HIERARCHY, SEARCH, EVERY],
         maker: Maker::Search(search::ray_hierarchy::make),
-        objection: any_scene,
+        objection: hidden_are_dropped,
     },
     TechniqueInfo {
         name: "reflector-cubemap",

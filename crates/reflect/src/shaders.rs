@@ -141,6 +141,6 @@ pub(crate) mod tests {
     fn features_are_found_in_the_sources() {
         let linear = programs().into_iter().find(|(name, _)| name == "linear");
         let (_, features) = linear.expect("there is a linear search");
-        assert_eq!(features, ["count", "cross", "eight", "extend"]);
+        assert_eq!(features, ["count", "cross", "eight", "extend", "path"]);
     }
 }

@@ -32,6 +32,11 @@ pub(crate) trait Technique {
     /// Records all passes of a frame.
     fn record(&self, frame: &mut Recorder<'_>, variant: Variant);
 
+    /// Whether a frame is found more easily after another one.
+    fn carries_over(&self) -> bool {
+        false
+    }
+
     /// Reads back what the last frame drew and counted; it was rendered in
     /// [`Variant::AllLayers`].
     fn output(&self, gpu: &Gpu) -> Output;
@@ -68,6 +73,18 @@ impl<'g> Prepared<'g> {
             technique,
             timer: Timer::new(gpu),
         }
+    }
+
+    /// Brings a technique that carries answers from frame to frame to where the second frame of a
+    /// still scene finds it; does nothing for others.
+    ///
+    /// # Errors
+    /// As [`Prepared::render`].
+    pub fn settle(&mut self) -> Result<(), ReflectError> {
+        if self.technique.carries_over() {
+            self.render()?;
+        }
+        Ok(())
     }
 
     /// Renders a frame with all layers and counts the work.

@@ -6,7 +6,7 @@ use crate::gpu::{Gpu, Prefer};
 use crate::points::{Points, points_layout};
 use crate::recorder::Recorder;
 use crate::registry::Maker;
-use crate::search::{Context, Search};
+use crate::search::{Account, Context, Search};
 use crate::spec::parse;
 use crate::stage::Stage;
 use crate::technique::Variant;
@@ -53,6 +53,7 @@ impl Searched {
             options: &spec.options,
             stage: &stage,
             points_layout: &points_layout,
+            account: Account::Efforts,
         });
         let vertices = stage.world.vertices();
         let batch = |_| Points::new(gpu, &points_layout, &stage.world.positions, vertices);

@@ -44,6 +44,7 @@ pub(crate) fn make(context: &Context<'_>) -> Result<Box<dyn Search>, ReflectErro
         options,
         stage,
         points_layout,
+        account,
     } = context;
     let mut features = Vec::new();
     if options.is("residual", "cross") {
@@ -66,7 +67,7 @@ pub(crate) fn make(context: &Context<'_>) -> Result<Box<dyn Search>, ReflectErro
         Ok(compute(gpu, &module, "search", &layouts))
     };
     let search = walk(&features)?;
-    features.push("count");
+    features.push(account.feature());
     let from_bounds = options.is("start", "bounds");
     let mirrors = (0..stage.world.mirrors.len()).map(|index| {
         let wanted = uniform(gpu, &start_point(stage, index, from_bounds));
@@ -172,5 +173,60 @@ impl Search for Linear {
 
     fn uses_previous(&self) -> bool {
         self.from_previous
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::spec::parse;
+    use crate::testing::{gpu_or_skip, scene};
+
+    #[test]
+    fn a_still_camera_needs_one_step_from_the_second_frame_on() {
+        let Some(gpu) = gpu_or_skip() else { return };
+        let scene = scene("sphere-objects-1k");
+        for technique in [
+            "linear(start=previous)",
+            "linear(start=previous,neighbours=8)",
+        ] {
+            let spec = parse(technique).expect("a technique");
+            let mut prepared = crate::prepare(&gpu, &spec, &scene, [160, 120]).expect("fits");
+            let [first, second, third] = [(); 3].map(|()| prepared.render().expect("renders"));
+            assert!(first.work.steps > 5.0, "{technique}: {:?}", first.work);
+            for later in [second, third] {
+                assert_eq!(later.work.steps, 1.0, "{technique}");
+                assert!(
+                    later.work.evaluations <= 9.0,
+                    "{technique}: {:?}",
+                    later.work
+                );
+                let places = |output: &crate::Output| {
+                    let vertices = output.vertices.iter().flatten();
+                    vertices
+                        .map(|vertex| (vertex.at, vertex.state))
+                        .collect::<Vec<_>>()
+                };
+                assert_eq!(places(&later), places(&first), "{technique}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_slow_camera_needs_few_steps() {
+        let Some(gpu) = gpu_or_skip() else { return };
+        let scene = scene("sphere-objects-1k");
+        let spec = parse("linear(start=previous)").expect("a technique");
+        let mut prepared = crate::prepare(&gpu, &spec, &scene, [160, 120]).expect("fits");
+        let first = prepared.render().expect("renders").work.steps;
+        for frame in 1..4 {
+            prepared
+                .update(&scene.at(frame))
+                .expect("the same scene, moved");
+            let steps = prepared.render().expect("renders").work.steps;
+            assert!(
+                (1.0..0.1 * first).contains(&steps),
+                "frame {frame}: {steps} of {first}"
+            );
+        }
     }
 }

@@ -54,6 +54,27 @@ pub(crate) struct Context<'a> {
     pub stage: &'a Stage,
     /// Of [`Points::group`].
     pub points_layout: &'a wgpu::BindGroupLayout,
+    /// What the shader of [`Variant::AllLayers`] tells beside its answers.
+    pub account: Account,
+}
+
+/// What a search can tell of itself, and the shader feature for it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Account {
+    /// What each search took.
+    Efforts,
+    /// Where a single search went: see [`crate::path()`].
+    Path,
+}
+
+impl Account {
+    /// The feature's name.
+    pub(crate) fn feature(self) -> &'static str {
+        match self {
+            Self::Efforts => "count",
+            Self::Path => "path",
+        }
+    }
 }
 
 /// Makes a search by its name.

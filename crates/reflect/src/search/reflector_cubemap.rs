@@ -69,6 +69,7 @@ impl ReflectorCubemap {
             options,
             stage,
             points_layout,
+            ..
         } = context;
         let slots = [Slot::Uniform, Slot::Textures, Slot::Textures];
         let layout = layout(gpu, "reflector cube maps", &slots);
@@ -186,6 +187,7 @@ mod tests {
 
     use super::*;
     use crate::points::points_layout;
+    use crate::search::Account;
     use crate::spec::parse;
     use crate::testing::{gpu_or_skip, scene};
 
@@ -202,6 +204,7 @@ mod tests {
             options: spec.options(),
             stage: &stage,
             points_layout: &points_layout(&gpu),
+            account: Account::Efforts,
         })
         .expect("can be made");
         let mirrors = scene.mirrors.len() as u32;

@@ -42,6 +42,7 @@ pub(crate) fn make(context: &Context<'_>) -> Result<Box<dyn Search>, ReflectErro
         options,
         stage,
         points_layout,
+        account,
     } = context;
     let pyramid = Pyramid::new(gpu, stage)?;
     let repair = uniform(
@@ -78,7 +79,7 @@ pub(crate) fn make(context: &Context<'_>) -> Result<Box<dyn Search>, ReflectErro
         Ok(compute(gpu, &module, "search", &layouts))
     };
     let search = descend(&features)?;
-    features.push("count");
+    features.push(account.feature());
     Ok(Box::new(RayHierarchy {
         built: Cell::new(None),
         search,

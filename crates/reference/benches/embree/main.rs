@@ -6,6 +6,14 @@
 //! `MEDIUM` one: there is no robust hierarchy with spatial splits in Embree 3), its answers f32;
 //! ours are f64. Rays are rounded to f32 first, for both, and start outside of mirrors.
 //!
+//! What limits us, by the counts printed: on the Sponza a ray tests 8 nodes and 2 leaves, so that
+//! the triangles, though tested in f64, matter less than the way to them. Over the four sets of
+//! rays, time fits (nodes + 1.7) × a constant: a node is a chain of dependent steps (load, eight
+//! boxes, mask, next child) whatever is in it, and setting a ray up is worth nearly two of them,
+//! which is why rays that meet little (`balls`, reflected) fare worst. Packets share both among
+//! eight rays, and win by as much as the rays are coherent. (One box at a time, as obvhs itself
+//! walks its binary hierarchy, it was 80 boxes and 9 triangles, and 0.4 of Embree's speed.)
+//!
 //! Without `--embree PROGRAM` (as under `cargo bench`) nothing is measured.
 
 #[path = "../load/mod.rs"]
@@ -38,8 +46,8 @@ const DISAGREEMENT: f64 = 1e-4;
 /// which two hits are at different places: some 80 rounding steps of f32.
 const SAME_PLACE: f64 = 1e-5;
 
-/// What Embree is asked to do: the words of its protocol, and whether the ratio is one of single
-/// rays.
+/// What Embree is asked to do: the words of its protocol, and how it is printed. The first two
+/// are what we compare ourselves with; packets are for information.
 const WAYS: [(&str, &str); 4] = [
     ("medium 1", "MEDIUM"),
     ("high 1", "HIGH"),
@@ -114,7 +122,7 @@ fn compare_scene(scene: &Scene, program: &Path, folder: &Path) -> Result<bool> {
         println!("  {} {kind} rays", rays.len());
         for (way, label) in &WAYS[..2] {
             let theirs = embree.hits(way, &folder.join("hits"))?;
-            agree &= check(&bvh, &rays, &theirs, label);
+            agree &= check(&bvh, &rays, &theirs, label)?;
         }
         compare_times(&bvh, &tracer, &rays, &mut embree)?;
     }
@@ -131,7 +139,26 @@ fn trace(bvh: &TriangleBvh, (origin, dir): &Ray) -> Option<TriangleHit> {
 }
 
 /// Prints how many hits differ from Embree's; the answer is whether that is few enough.
-fn check(bvh: &TriangleBvh, rays: &[Ray], theirs: &[Option<f64>], label: &str) -> bool {
+fn check(bvh: &TriangleBvh, rays: &[Ray], theirs: &[Option<f64>], label: &str) -> Result<bool> {
+    let (alone, elsewhere) = differing(bvh, rays, theirs);
+    let few = |count: usize| count as f64 <= DISAGREEMENT * rays.len() as f64;
+    let agree = few(alone + elsewhere);
+    let verdict = if agree { "" } else { " TOO MANY" };
+    println!(
+        "    against {label}: {alone} hit in one tracer alone, {elsewhere} elsewhere{verdict}"
+    );
+    // The comparison itself: hits of the rays next to these must not pass.
+    let mut next = theirs.to_vec();
+    next.rotate_left(1);
+    let (alone, elsewhere) = differing(bvh, rays, &next);
+    if few(alone + elsewhere) {
+        bail!("hits of other rays go unnoticed");
+    }
+    Ok(agree)
+}
+
+/// How many rays hit in one tracer alone, and how many at different places.
+fn differing(bvh: &TriangleBvh, rays: &[Ray], theirs: &[Option<f64>]) -> (usize, usize) {
     let (mut alone, mut elsewhere) = (0, 0);
     for (ray, theirs) in rays.iter().zip(theirs) {
         match (trace(bvh, ray).map(|hit| hit.t), theirs) {
@@ -143,16 +170,7 @@ fn check(bvh: &TriangleBvh, rays: &[Ray], theirs: &[Option<f64>], label: &str) -
             _ => alone += 1,
         }
     }
-    let share = (alone + elsewhere) as f64 / rays.len() as f64;
-    let verdict = if share > DISAGREEMENT {
-        " TOO MANY"
-    } else {
-        ""
-    };
-    println!(
-        "    against {label}: {alone} hit in one tracer alone, {elsewhere} elsewhere{verdict}"
-    );
-    share <= DISAGREEMENT
+    (alone, elsewhere)
 }
 
 /// Alternates runs and prints medians.

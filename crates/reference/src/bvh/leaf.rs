@@ -48,7 +48,7 @@ impl Block {
 
 /// A ray, and the shear that turns it into an axis.
 pub(super) struct Sheared<S: Simd> {
-    /// The axis along which the ray runs most, last; the two others.
+    /// The order of the axes: last is the one along which the ray runs most.
     axes: [usize; 3],
     /// The ray's origin, in that order of axes.
     origin: [f64x4<S>; 3],

@@ -96,7 +96,8 @@ pub struct Rendered<'g> {
 /// Why a row has no numbers.
 pub type Blank = (Status, String);
 
-/// Prepares a technique and renders one frame with all layers.
+/// Prepares a technique and renders one frame with all layers: the first one, or the second where
+/// a frame helps to find the next, as the timed ones are.
 pub fn render<'g>(gpu: &'g Gpu, spec: &Spec, scene: &Scene) -> Result<Rendered<'g>, Blank> {
     if let Support::No(reason) = catoptric_reflect::supports(spec, scene) {
         return Err((Status::NotApplicable, reason));
@@ -105,6 +106,7 @@ pub fn render<'g>(gpu: &'g Gpu, spec: &Spec, scene: &Scene) -> Result<Rendered<'
     let start = Instant::now();
     let mut prepared = catoptric_reflect::prepare(gpu, spec, scene, size(scene)).map_err(failed)?;
     let prepare_ms = start.elapsed().as_secs_f64() * 1e3;
+    prepared.settle().map_err(failed)?;
     let output = prepared.render().map_err(failed)?;
     Ok(Rendered {
         prepared,

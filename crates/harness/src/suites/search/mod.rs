@@ -1,38 +1,52 @@
-//! `catoptric bench search`: searches against each other, Szabo 2013, chapters 4 and 6.
+//! `catoptric bench search`: the linear search against the ray hierarchy, Szabo 2013, chapters 4
+//! and 6.
 //!
-//! Frame and search time against the number of vertices (Fig. 6.1 and 6.2), and two scenes of
-//! objects (Fig. 4.3), with work and accuracy on the same axes.
+//! Scenes of objects and the cases with holes and with an early stop (Fig. 4.3), frame and search
+//! time against the number of vertices (Fig. 6.1 and 6.2), how exact the answers are on points with
+//! known reflection points, and how steady they are on a slow camera path. Each with both searches
+//! cold, the linear one warm, and all repairs of the hierarchy; times, counted work and accuracy on
+//! the same axes. Maps (Fig. 3.1) and paths (Fig. 4.2) as pictures.
 
-use anyhow::Context;
-use catoptric_frame::{Image, Status as Pixel, write_png_rgb8};
-use catoptric_scene::Scene;
-use glam::Vec3;
+mod claims;
+mod pictures;
 
 use crate::plot::{Axis, Scale};
-use crate::report::pictures::{FOLDER, slug};
-use crate::report::words::{count, short};
 
-use super::results::{Results, line, power};
-use super::{Ask, Figure, Picture, Point, Quantity, Quote, Series, Studio, Suite};
+use super::{Ask, Figure, Point, Quantity, Quote, Series, Suite};
 
 /// The suite.
 pub const SUITE: Suite = Suite {
     name: "search",
-    title: "Searches for reflection points",
+    title: "Searches for reflection points: linear against hierarchy",
     why: "What does it cost to find where each vertex is seen in the mirror, how does the cost grow \
-          with the vertices, and how exact are the answers?",
+          with the vertices, and how exact and steady are the answers? The comparison of the thesis \
+          that proposed both searches, repeated.",
     figures,
-    pictures: Some(maps),
-    timing_s: 120.0,
+    pictures: Some(pictures::make),
+    timing_s: 150.0,
 };
 
+const LINEAR: &str = "linear";
+const WARM: &str = "linear, warm";
+const RAW: &str = "hierarchy";
+const ENLARGED: &str = "hierarchy, enlarged";
+const STOPPED: &str = "hierarchy, stopped early";
+
 /// Series of every figure: label and technique.
-const SEARCHES: [(&str, &str); 2] = [
-    ("linear", "linear"),
-    (
-        "linear, 8 neighbours, cross",
-        "linear(neighbours=8,residual=cross)",
-    ),
+const SEARCHES: [(&str, &str); 5] = [
+    (LINEAR, "linear"),
+    (WARM, "linear(start=previous)"),
+    (RAW, "ray-hierarchy"),
+    (ENLARGED, "ray-hierarchy(repair=enlarge)"),
+    (STOPPED, "ray-hierarchy(repair=stop)"),
+];
+
+/// The scenes of Fig. 4.3, by letter.
+const CASES: [(&str, &str); 4] = [
+    ("a: about 20 000 vertices", "sphere-objects-20k"),
+    ("b: about 1 000 vertices", "sphere-objects-1k"),
+    ("c: holes", "sphere-grid-3k"),
+    ("d: early stop", "sphere-grid-1k"),
 ];
 
 /// The built-in family's sizes: the name's ending, and the vertices of its grid.
@@ -46,30 +60,47 @@ const SIZES: [(&str, u32); 7] = [
     ("100k", 99_856),
 ];
 
-/// The pass that searches.
+/// Scenes with a slow camera path.
+const MOVING: [(&str, &str); 3] = [
+    ("sphere, points", "prototype-sphere"),
+    ("sphere, objects", "sphere-objects-1k"),
+    ("ellipsoid, objects", "ellipsoid"),
+];
+
+/// Frames of the path that are followed.
+const FRAMES: u32 = 20;
+
 const SEARCH_MS: &str = "time_ms.passes.search";
 const FRAME_MS: &str = "time_ms.frame.median";
+const MOVING_MS: &str = "temporal.frame_ms";
 const EVALUATIONS: &str = "work.evaluations";
+const NODE_TESTS: &str = "work.node_tests";
+const STEPS: &str = "work.steps";
+const OFFSET: &str = "vertices.offset_px.mean";
+const OFFSET_P95: &str = "vertices.offset_px.p95";
+const JITTER_MEAN: &str = "temporal.jitter_px.mean";
+const JITTER_MAX: &str = "temporal.jitter_px.max";
+const JUMPS: &str = "temporal.jumps";
 
 /// On what the thesis measured.
 const THESIS: &str = "Core 2 Duo, GTX 260";
 
 fn figures(scene: Option<&str>) -> Vec<Figure> {
     if let Some(scene) = scene {
-        return vec![objects(&[(scene, scene)], Vec::new())];
+        return vec![
+            objects(&[(scene, scene)], Vec::new()),
+            motion(&[(scene, scene)]),
+        ];
     }
-    let scenes = [
-        ("about 20 000 vertices", "sphere-objects-20k"),
-        ("about 1 000 vertices", "sphere-objects-1k"),
-    ];
     vec![
-        objects(&scenes, object_quotes()),
+        objects(&CASES, quotes()),
         growth(
             "vertices",
             "Cost against the number of vertices",
             "Szabo 2013, Fig. 6.1",
             "A square under a mirror sphere, cut finer and finer; the mirror is a part of the picture.",
             "sphere-grid-",
+            claims::general_view,
         ),
         growth(
             "vertices-full",
@@ -77,83 +108,107 @@ fn figures(scene: Option<&str>) -> Vec<Figure> {
             "Szabo 2013, Fig. 6.2",
             "Every pixel is a mirror pixel, so that a walk across the mirror is as long as it gets.",
             "sphere-grid-full-",
+            claims::full_view,
         ),
+        exactness(),
+        motion(&MOVING),
     ]
 }
 
-/// Fig. 4.3: every search on a few scenes.
-fn objects(scenes: &[(&str, &str)], quotes: Vec<Quote>) -> Figure {
-    let names = scenes.iter().map(|(name, _)| (*name).to_owned()).collect();
+/// Every search on a few scenes.
+fn series(scenes: &[(&str, &str)], point: impl Fn(Point) -> Point) -> Vec<Series> {
     let series = |(label, technique): &(&str, &str)| Series {
         label: (*label).to_owned(),
-        points: scenes
-            .iter()
-            .enumerate()
-            .map(|(x, (_, scene))| Point::new(x as f64, *scene, *technique).shown())
+        points: (scenes.iter().enumerate())
+            .map(|(x, (_, scene))| point(Point::new(x as f64, *scene, *technique)))
             .collect(),
     };
-    Figure {
-        anchor: "objects",
-        title: "Searches on a scene of objects".to_owned(),
-        after: "Szabo 2013, Fig. 4.3",
-        question: "The same picture by every search: its time, its work and its error.".to_owned(),
-        axis: Axis {
-            label: "scene".to_owned(),
-            scale: Scale::Names(names),
-        },
-        series: SEARCHES.iter().map(series).collect(),
-        quantities: quantities(Quantity::linear),
-        quotes,
-        analysis: objects_analysis,
+    SEARCHES.iter().map(series).collect()
+}
+
+fn names(scenes: &[(&str, &str)]) -> Axis {
+    Axis {
+        label: "scene".to_owned(),
+        scale: Scale::Names(scenes.iter().map(|(name, _)| (*name).to_owned()).collect()),
     }
 }
 
-fn object_quotes() -> Vec<Quote> {
-    let frame = |x| {
-        Some(Ask {
-            series: SEARCHES[0].0,
-            x,
-            path: FRAME_MS,
-            unit: "ms",
-        })
-    };
-    let quote = |what, theirs, ours| Quote {
+/// Fig. 4.3.
+fn objects(scenes: &[(&str, &str)], quotes: Vec<Quote>) -> Figure {
+    Figure {
+        anchor: "objects",
+        title: "Both searches, with and without repairs".to_owned(),
+        after: "Szabo 2013, Fig. 4.3",
+        question:
+            "The same picture by every search: its time, its work and its error. The hierarchy \
+                   has holes between its cones; a vertex in one is placed somewhere (no repair), \
+                   searched again in enlarged cones, or answered at a higher level."
+                .to_owned(),
+        axis: names(scenes),
+        series: series(scenes, Point::shown),
+        quantities: quantities(Quantity::linear),
+        quotes,
+        analysis: claims::objects,
+    }
+}
+
+/// The milliseconds of Fig. 4.3.
+fn quotes() -> Vec<Quote> {
+    let quote = |what, theirs, series, x| Quote {
         what,
         theirs,
         on: THESIS,
-        ours,
+        ours: Some(Ask {
+            series,
+            x,
+            path: FRAME_MS,
+            unit: "ms",
+        }),
     };
     vec![
+        quote("a: linear", "90 ms a frame", LINEAR, 0.0),
+        quote("a: hierarchy", "600 ms a frame (6.7 times)", ENLARGED, 0.0),
+        quote("b: linear", "8 ms a frame", LINEAR, 1.0),
+        quote("b: hierarchy", "45 ms a frame (5.6 times)", ENLARGED, 1.0),
+        quote("c: linear", "20 ms a frame", LINEAR, 2.0),
         quote(
-            "linear search, about 20 000 vertices",
-            "90 ms a frame",
-            frame(0.0),
+            "c: hierarchy, enlarged",
+            "95 ms a frame (4.8 times)",
+            ENLARGED,
+            2.0,
         ),
         quote(
-            "linear search, about 1 000 vertices",
-            "8 ms a frame",
-            frame(1.0),
+            "c: hierarchy, no repair",
+            "80 ms a frame (4 times)",
+            RAW,
+            2.0,
+        ),
+        quote("d: linear", "6 ms a frame", LINEAR, 3.0),
+        quote("d: hierarchy", "20 ms a frame (3.3 times)", ENLARGED, 3.0),
+        quote(
+            "d: hierarchy, stopped early",
+            "12 ms a frame (2 times)",
+            STOPPED,
+            3.0,
         ),
     ]
 }
 
+/// Fig. 6.1 and 6.2.
 fn growth(
     anchor: &'static str,
     title: &str,
     after: &'static str,
     question: &str,
     family: &str,
+    analysis: fn(&super::Results<'_>) -> Vec<String>,
 ) -> Figure {
     let series = |(label, technique): &(&str, &str)| Series {
         label: (*label).to_owned(),
         points: SIZES
             .iter()
             .map(|(size, vertices)| {
-                let point = Point::new(f64::from(*vertices), format!("{family}{size}"), *technique);
-                match (*size, *label) {
-                    ("1k", "linear") => point.shown(),
-                    _ => point,
-                }
+                Point::new(f64::from(*vertices), format!("{family}{size}"), *technique)
             })
             .collect(),
     };
@@ -166,7 +221,7 @@ fn growth(
         series: SEARCHES.iter().map(series).collect(),
         quantities: quantities(Quantity::log),
         quotes: Vec::new(),
-        analysis: growth_analysis,
+        analysis,
     }
 }
 
@@ -174,106 +229,73 @@ fn quantities(time: fn(&'static str, &'static str) -> Quantity) -> Vec<Quantity>
     vec![
         time("time of a frame (ms)", FRAME_MS),
         time("search pass (ms)", SEARCH_MS),
-        Quantity::linear("evaluations per vertex", EVALUATIONS),
-        Quantity::linear("mean offset (px)", "vertices.offset_px.mean"),
+        Quantity::linear("error evaluations or ray distances per vertex", EVALUATIONS),
+        Quantity::linear("node tests per vertex", NODE_TESTS),
+        Quantity::linear("steps per vertex", STEPS),
+        Quantity::linear("mean offset (px)", OFFSET),
+        Quantity::linear("searches that failed", "vertices.failed"),
     ]
 }
 
-fn objects_analysis(results: &Results<'_>) -> Vec<String> {
-    let mut sentences = Vec::new();
-    let (first, _) = SEARCHES[0];
-    for (other, _) in &SEARCHES[1..] {
-        let time = results.ratios(other, first, SEARCH_MS);
-        let work = results.ratios(other, first, EVALUATIONS);
-        if let (Some((_, time)), Some((_, work))) = (time.first(), work.first()) {
-            sentences.push(format!(
-                "On the first scene “{other}” takes {} times the search time of “{first}” and {} times \
-                 its evaluations.",
-                short(*time),
-                short(*work)
-            ));
-        }
-    }
-    sentences
-}
-
-fn growth_analysis(results: &Results<'_>) -> Vec<String> {
-    SEARCHES
-        .iter()
-        .filter_map(|(label, _)| {
-            let search = results.curve(label, SEARCH_MS);
-            let growth = power(search.get(search.len() / 2..)?)?;
-            let (constant, slope) = line(&results.curve(label, FRAME_MS))?;
-            let (most, _) = search.last()?;
-            Some(format!(
-                "“{label}”: up to {} vertices the search pass grows as the vertices to the power {} \
-                 (upper half of the sizes); a whole frame costs about {} ms and {} ms more per 1\u{2009}000 \
-                 vertices.",
-                count(*most as u64),
-                short(growth),
-                short(constant),
-                short(1000.0 * slope)
-            ))
-        })
-        .collect()
-}
-
-/// Fig. 3.1: the position and the normal map, in which every search looks.
-fn maps(studio: &Studio<'_>) -> anyhow::Result<Vec<Picture>> {
-    let name = studio.scene.unwrap_or("sphere-objects-1k");
-    let options = crate::setup::load_options(studio.common);
-    let scene = Scene::load(name, &options)?;
-    let spec = crate::setup::parse("linear")?;
-    let rendered = crate::pipeline::render(&studio.setup.gpu, &spec, &scene);
-    let Ok(rendered) = rendered else {
-        return Ok(Vec::new());
-    };
-    let frame = &rendered.output.frame;
-    let (Some(primary), Some(reflected)) = (&frame.primary, &frame.reflected) else {
-        return Ok(Vec::new());
-    };
-    let mask = reflected.status.map(|status| *status != Pixel::NotMirror);
-    let maps = [
-        ("position", &primary.position, "positions"),
-        ("normal", &primary.normal, "normals"),
+/// Accuracy apart from drawing: points whose reflection points are known by construction.
+fn exactness() -> Figure {
+    let scenes = [
+        ("sphere", "prototype-sphere"),
+        ("ellipsoid", "prototype-ellipsoid"),
+        ("bowl", "prototype-bowl"),
     ];
-    maps.into_iter()
-        .map(|(kind, map, what)| {
-            let path = format!("{FOLDER}/{}.{kind}.png", slug(&scene.name));
-            let file = studio.folder.join(&path);
-            write_png_rgb8(&as_rgb(map, &mask), &file)
-                .with_context(|| format!("cannot write {}", file.display()))?;
-            Ok(Picture {
-                figure: "objects",
-                path,
-                size: map.size(),
-                caption: format!(
-                    "{}: {what} of the mirror as red, green and blue (Fig. 3.1).",
-                    scene.name
-                ),
-                alt: format!("Map of the mirror's {what}, x, y and z as red, green and blue"),
-            })
-        })
-        .collect()
+    Figure {
+        anchor: "exactness",
+        title: "How far from the true reflection point".to_owned(),
+        after: "Szabo 2013, section 4.2",
+        question: "Points without triangles, placed so that each has a reflection point in view. The \
+                   distance of a pixel centre from a point in that pixel is 0.38 pixels in the mean: \
+                   no search that answers with a pixel does better."
+            .to_owned(),
+        axis: names(&scenes),
+        series: series(&scenes, |point| point),
+        quantities: vec![
+            Quantity::linear("mean offset (px)", OFFSET),
+            Quantity::linear("95th percentile of the offset (px)", OFFSET_P95),
+            Quantity::linear("share of offsets above 2 px", "vertices.offset_share.over_2"),
+            Quantity::linear("searches that failed", "vertices.failed"),
+            Quantity::linear("searches that met a hole", "vertices.hole"),
+            Quantity::linear("node tests per vertex", NODE_TESTS),
+        ],
+        quotes: Vec::new(),
+        analysis: claims::exactness,
+    }
 }
 
-/// Vectors as colours, each component stretched over its range inside the mask; grey outside.
-fn as_rgb(map: &Image<Vec3>, mask: &Image<bool>) -> Image<[u8; 3]> {
-    let pixels = || {
-        map.pixels()
-            .iter()
-            .copied()
-            .zip(mask.pixels().iter().copied())
-    };
-    let inside = || pixels().filter_map(|(value, inside)| inside.then_some(value));
-    let low = inside().reduce(Vec3::min).unwrap_or_default();
-    let high = inside().reduce(Vec3::max).unwrap_or_default();
-    let span = (high - low).max(Vec3::splat(f32::MIN_POSITIVE));
-    let colors = pixels().map(|(value, inside)| match inside {
-        true => (255.0 * (value - low) / span)
-            .to_array()
-            .map(|channel| channel.round() as u8),
-        false => [128; 3],
-    });
-    Image::from_vec(map.size(), colors.collect())
+/// Jitter, and what motion costs.
+fn motion(scenes: &[(&str, &str)]) -> Figure {
+    Figure {
+        anchor: "motion",
+        title: "On a slow camera path".to_owned(),
+        after: "Szabo 2013, sections 4.2 and 6.1",
+        question:
+            "The camera moves so slowly that true reflection points move by parts of a pixel. \
+                   Jitter is how much a vertex' error changes from one frame to the next; a change \
+                   of more than 2 pixels is a jump. A scene whose file has no motion stands still."
+                .to_owned(),
+        axis: names(scenes),
+        series: series(scenes, |point| Point {
+            frames: Some(FRAMES),
+            ..point
+        }),
+        quantities: vec![
+            Quantity::linear("mean jitter (px)", JITTER_MEAN),
+            Quantity::linear(
+                "99th percentile of the jitter (px)",
+                "temporal.jitter_px.p99",
+            ),
+            Quantity::linear("largest jitter (px)", JITTER_MAX),
+            Quantity::linear("share of jumps", JUMPS),
+            Quantity::linear("time of a moving frame (ms)", MOVING_MS),
+            Quantity::linear("time of a still frame (ms)", FRAME_MS),
+            Quantity::linear("steps per vertex, from the second frame", "temporal.steps"),
+        ],
+        quotes: Vec::new(),
+        analysis: claims::motion,
+    }
 }

@@ -1,0 +1,76 @@
+//! The ray hierarchy's published flaws, on points whose reflection points are known.
+
+mod support;
+
+use serde_json::Value;
+use support::{catoptric, code, gpu_or_skip, json, stderr};
+
+/// How far a measured value may be from the expected one, as a share of it: the expected values
+/// come from an independent f64 program and other random vertices of the same distribution.
+const THIRD: f64 = 1.0 / 3.0;
+
+/// Rows of a scene by several techniques.
+fn rows(scene: &str, techniques: &[&str]) -> Vec<Value> {
+    let given = techniques.iter().flat_map(|technique| ["-t", technique]);
+    let args: Vec<&str> = ["compare", scene, "--format", "json", "--time-budget", "0.1"]
+        .into_iter()
+        .chain(given)
+        .collect();
+    let output = catoptric(&args);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    match json(&output) {
+        Value::Array(rows) => rows,
+        other => panic!("no array: {other}"),
+    }
+}
+
+fn near(row: &Value, what: &str, found: Option<f64>, expected: f64) {
+    let found = found.unwrap_or_else(|| panic!("{what}: {row}"));
+    let technique = &row["technique"];
+    assert!(
+        (found - expected).abs() <= THIRD * expected,
+        "{technique}: {what} is {found}, expected about {expected}"
+    );
+}
+
+#[test]
+fn the_sphere_shows_the_published_flaws() {
+    if !gpu_or_skip() {
+        return;
+    }
+    let rows = rows(
+        "prototype-sphere",
+        &[
+            "ray-hierarchy",
+            "ray-hierarchy(repair=enlarge)",
+            "ray-hierarchy(repair=stop,stop=2)",
+            "ray-hierarchy(repair=stop,stop=3)",
+            "ray-hierarchy(repair=stop,stop=4)",
+        ],
+    );
+    let [raw, enlarged, two, three, four] = rows.as_slice() else {
+        panic!("{} rows", rows.len())
+    };
+    let number = |row: &Value, pointer: &str| row.pointer(pointer).and_then(Value::as_f64);
+    let share = |row: &Value, of: &str| {
+        let part = number(row, &format!("/vertices/{of}"))?;
+        Some(part / number(row, "/vertices/reflected")?)
+    };
+    let mean = |row: &Value| number(row, "/vertices/offset_px/mean");
+    near(raw, "share of failed searches", share(raw, "failed"), 0.10);
+    near(raw, "share of holes", share(raw, "hole"), 0.995);
+    near(raw, "mean offset", mean(raw), 20.0);
+    near(raw, "node tests", number(raw, "/work/node_tests"), 86.0);
+    near(enlarged, "mean offset", mean(enlarged), 1.4);
+    let p95 = number(enlarged, "/vertices/offset_px/p95");
+    near(enlarged, "95th percentile", p95, 4.6);
+    near(
+        enlarged,
+        "node tests",
+        number(enlarged, "/work/node_tests"),
+        195.0,
+    );
+    near(two, "mean offset", mean(two), 3.6);
+    near(three, "mean offset", mean(three), 8.7);
+    near(four, "mean offset", mean(four), 20.0);
+}

@@ -2,7 +2,7 @@
 
 use catoptric_scene::{Background, Mesh, Paint, Scene, Shape, View};
 use encase::ShaderType;
-use glam::{DVec3, UVec2, Vec2, Vec3};
+use glam::{DVec3, UVec2, UVec3, Vec2, Vec3};
 
 /// Twin of `shared/view.wesl`.
 #[derive(Clone, Copy, Debug, ShaderType)]
@@ -236,6 +236,24 @@ impl Found {
     pub const FAILED: u32 = 2;
 }
 
+/// Twin of `Triangle` in `shared/triangle.wesl`: a piece of one of the scene's triangles.
+#[derive(Clone, Copy, Debug, ShaderType)]
+pub(crate) struct Piece {
+    /// Corners: scene vertices, or with [`Piece::NEW`] points of the refinement.
+    pub points: UVec3,
+    /// The scene's triangle.
+    pub source: u32,
+    /// Where the corners lie in the source: weights of its second and third corner, 16 bits each.
+    pub places: UVec3,
+    /// How often the source was split.
+    pub level: u32,
+}
+
+impl Piece {
+    /// Marks a point as one of the refinement's.
+    pub const NEW: u32 = 1 << 31;
+}
+
 impl Effort {
     /// `flags`: the hierarchy left a gap here.
     pub const MET_HOLE: u32 = 1;
@@ -340,6 +358,7 @@ mod tests {
     use encase::ShaderSize;
 
     use super::*;
+    use crate::refine::tessellation::{Chunk, Level, Settings, Totals};
     use crate::shaders::tests::parsed;
 
     /// Names, offsets and size of a struct as a linked shader has it.
@@ -459,5 +478,34 @@ mod tests {
             [size, iterations, first_step, shrink, grow, from_eye]
         );
         check!(GridPlace, "grid", &[], "Place", [local, cell]);
+        check!(
+            Piece,
+            "virtual",
+            &["split"],
+            "Triangle",
+            [points, source, places, level]
+        );
+        check!(
+            Settings,
+            "tessellation",
+            &[],
+            "Settings",
+            [threshold, level]
+        );
+        check!(Chunk, "tessellation", &[], "Chunk", [first, count]);
+        check!(
+            Level,
+            "tessellation",
+            &[],
+            "Level",
+            [groups, count, draw, finished, points, splits, index]
+        );
+        check!(
+            Totals,
+            "tessellation",
+            &[],
+            "Totals",
+            [by_level, points, unfinished]
+        );
     }
 }

@@ -94,6 +94,7 @@ impl Technique for ObjectOrder {
             vertices: Some(vertices),
             searched: efforts.searched,
             triangles: Some(self.refine.triangles(gpu, &self.stage)),
+            t_junctions: (self.refine).t_junctions(gpu, &self.stage, self.search.as_ref()),
             work: efforts.mean(),
             notes: self.refine.notes(),
         }

@@ -18,10 +18,6 @@ const GROUP: u32 = 64;
 pub(crate) enum Dispatch {
     /// Known when the frame is recorded.
     Direct(u32),
-    #[expect(
-        dead_code,
-        reason = "refinements that split count their points on the GPU"
-    )]
     /// Written by an earlier pass: three `u32` at this offset.
     Indirect(wgpu::Buffer, u64),
 }
@@ -205,7 +201,7 @@ impl Points {
 }
 
 /// The first `count` records of a buffer.
-fn read<T: ShaderType + ShaderSize + CreateFrom>(
+pub(crate) fn read<T: ShaderType + ShaderSize + CreateFrom>(
     gpu: &Gpu,
     buffer: &wgpu::Buffer,
     count: u32,

@@ -18,23 +18,27 @@ pub(crate) struct Raster {
 
 impl Raster {
     /// `program` has the entries `vertex`, `color` and `layers`, knows the features
-    /// `virtual_depth` and `extend`, and reads `slots` as group 3. Reads the options `depth` and
-    /// `hidden`.
+    /// `virtual_depth`, `extend`, `wireframe`, `levels` and those given, and reads `slots` as group
+    /// 3. Reads the options `depth`, `hidden` and `show`.
     pub(crate) fn new(
         gpu: &Gpu,
         options: &Options,
         stage: &Stage,
         program: &str,
+        features: &[&str],
         slots: &[Slot],
     ) -> Result<Self, ReflectError> {
-        let features = [
+        let of_options = [
             ("depth", "virtual", "virtual_depth"),
             ("hidden", "extend", "extend"),
+            ("show", "wireframe", "wireframe"),
+            ("show", "levels", "levels"),
         ];
-        let features = features
+        let of_options = of_options
             .into_iter()
             .filter(|(option, value, _)| options.is(option, value));
-        let features: Vec<_> = features.map(|(_, _, feature)| feature).collect();
+        let of_options = of_options.map(|(_, _, feature)| feature);
+        let features: Vec<_> = of_options.chain(features.iter().copied()).collect();
         let module = module(gpu, program, &features)?;
         let own_layout = layout(gpu, program, slots);
         let layouts = [

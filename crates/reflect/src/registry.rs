@@ -161,6 +161,11 @@ const SEARCH: &[OptionInfo] = &[
         &["drop", "extend"],
         "triangles with a hidden vertex are dropped, or drawn with the vertex continued behind the tangent plane unless all three are hidden",
     ),
+    words(
+        "show",
+        &["shaded", "wireframe", "levels"],
+        "the reflected surfaces, those with the edges of the virtual triangles, or how often each was split",
+    ),
 ];
 
 const LINEAR: &[OptionInfo] = &[
@@ -280,6 +285,31 @@ const GRID: &[OptionInfo] = &[
     },
 ];
 
+const fn levels(default: u32, what: &'static str) -> OptionInfo {
+    OptionInfo {
+        name: "level",
+        values: Values::Whole {
+            default,
+            range: [0, refine::tessellation::DEEPEST],
+        },
+        what,
+    }
+}
+
+const FULL: &[OptionInfo] = &[levels(3, "how often every triangle is split")];
+
+const ADAPTIVE: &[OptionInfo] = &[
+    levels(5, "how often a triangle may be split"),
+    OptionInfo {
+        name: "threshold",
+        values: Values::Number {
+            default: 0.001,
+            range: [0.0, 1.0],
+        },
+        what: "edge error from which a triangle is split: sin²(δ/2) of the angle δ by which the mirror's normal at the middle misses; 0 splits all, 1 none",
+    },
+];
+
 fn any_scene(_: &Options, _: &Scene) -> Option<String> {
     None
 }
@@ -348,18 +378,24 @@ pub const TECHNIQUES: &[TechniqueInfo] = &[
         Family::Search,
         "this project",
     ),
-    later(
-        "+full",
-        "splits every triangle",
-        Family::Refinement,
-        "Szabo 2013",
-    ),
-    later(
-        "+adaptive",
-        "splits where the edge error is large",
-        Family::Refinement,
-        "Szabo 2013",
-    ),
+    TechniqueInfo {
+        name: "+full",
+        what: "splits every triangle",
+        family: Family::Refinement,
+        paper: "Szabo 2013",
+        options: &[FULL],
+        maker: Maker::Refinement(refine::full::make),
+        objection: refine::tessellation::objection,
+    },
+    TechniqueInfo {
+        name: "+adaptive",
+        what: "splits where the edge error is large",
+        family: Family::Refinement,
+        paper: "Szabo 2013",
+        options: &[ADAPTIVE],
+        maker: Maker::Refinement(refine::adaptive::make),
+        objection: refine::tessellation::objection,
+    },
     TechniqueInfo {
         name: "+grid",
         what: "interpolates vertices between the virtual images of a grid around each mesh",

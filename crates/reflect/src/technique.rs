@@ -53,6 +53,8 @@ pub struct Output {
     pub searched: u64,
     /// Triangles of the virtual geometry; `None` for techniques that have none.
     pub triangles: Option<Triangles>,
+    /// Corners of drawn triangles inside an edge of another; `None` where no triangle is split.
+    pub t_junctions: Option<u64>,
     /// Means per search that was run, or per mirror pixel.
     pub work: Work,
     /// What else the reader of these numbers should know, in sentences.

@@ -95,6 +95,7 @@ impl Technique for Whole {
             vertices: None,
             searched: 0,
             triangles: None,
+            t_junctions: None,
             work: self.technique.work(gpu, &self.stage),
             notes: Vec::new(),
         }

@@ -69,7 +69,14 @@ pub(crate) fn make(context: &Context<'_>) -> Result<Box<dyn Refine>, ReflectErro
     let meshes: Vec<_> = (scene.objects.iter())
         .map(|object| Mesh::new(&object.mesh.positions, options))
         .collect();
-    let raster = Raster::new(gpu, context.search_options, stage, "virtual", &[Slot::Read])?;
+    let raster = Raster::new(
+        gpu,
+        context.search_options,
+        stage,
+        "virtual",
+        &[],
+        &[Slot::Read],
+    )?;
     let slots = [Slot::Read, Slot::Read, Slot::Read, Slot::Write];
     let layout = layout(gpu, "grid", &slots);
     let features: &[&str] = if context.search_options.is("hidden", "extend") {

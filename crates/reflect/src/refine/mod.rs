@@ -1,8 +1,12 @@
 //! Refinements: which points a search is asked for, and the triangles drawn from its answers.
 //! One file a refinement, named as its shader. Any search goes with any refinement.
 
+pub(crate) mod adaptive;
+pub(crate) mod full;
 pub(crate) mod grid;
 pub(crate) mod none;
+mod originals;
+pub(crate) mod tessellation;
 
 use catoptric_frame::{Triangles, VertexResult};
 
@@ -41,6 +45,12 @@ pub(crate) trait Refine {
 
     /// All triangles of the last frame.
     fn triangles(&self, gpu: &Gpu, stage: &Stage) -> Triangles;
+
+    /// Corners of the last frame's drawn triangles that lie inside an edge of another; `None` for
+    /// refinements that split no triangle.
+    fn t_junctions(&self, _gpu: &Gpu, _stage: &Stage, _search: &dyn Search) -> Option<u64> {
+        None
+    }
 
     /// What else the reader of its numbers should know, in sentences.
     fn notes(&self) -> Vec<String> {

@@ -2,10 +2,11 @@
 
 use catoptric_frame::{Triangles, VertexResult};
 
+use super::originals::Originals;
 use super::{Context, Refine};
 use crate::ReflectError;
 use crate::gpu::Gpu;
-use crate::points::{Efforts, Points};
+use crate::points::Efforts;
 use crate::raster::Raster;
 use crate::recorder::Recorder;
 use crate::resources::{Slot, group};
@@ -15,27 +16,29 @@ use crate::technique::Variant;
 
 struct None {
     raster: Raster,
-    /// One batch a mirror: all vertices.
-    batches: Vec<Points>,
+    originals: Originals,
     found: Vec<wgpu::BindGroup>,
 }
 
 pub(crate) fn make(context: &Context<'_>) -> Result<Box<dyn Refine>, ReflectError> {
     let Context { gpu, stage, .. } = context;
-    let world = &stage.world;
-    let raster = Raster::new(gpu, context.search_options, stage, "virtual", &[Slot::Read])?;
-    let vertices = world.vertices();
-    let batches: Vec<_> = (world.mirrors.iter())
-        .map(|_| Points::new(gpu, context.points_layout, &world.positions, vertices))
-        .collect();
-    let found = batches.iter().map(|batch| {
+    let raster = Raster::new(
+        gpu,
+        context.search_options,
+        stage,
+        "virtual",
+        &[],
+        &[Slot::Read],
+    )?;
+    let originals = Originals::new(context);
+    let found = originals.batches.iter().map(|batch| {
         let found = batch.found.as_entire_binding();
         group(gpu, &raster.own_layout, &[found])
     });
     Ok(Box::new(None {
         found: found.collect(),
         raster,
-        batches,
+        originals,
     }))
 }
 
@@ -43,9 +46,7 @@ impl Refine for None {
     fn update(&mut self, _gpu: &Gpu, _stage: &Stage) {}
 
     fn begin_frame(&mut self, gpu: &Gpu, stage: &Stage, warm: bool) {
-        for batch in &self.batches {
-            batch.set_warm(gpu, stage.world.vertices(), warm);
-        }
+        self.originals.begin_frame(gpu, stage, warm);
     }
 
     fn record(
@@ -56,7 +57,7 @@ impl Refine for None {
         mirror: usize,
         variant: Variant,
     ) {
-        search.record_search(frame, stage, mirror, &self.batches[mirror], variant);
+        self.originals.record(frame, stage, search, mirror, variant);
         let found = &self.found[mirror];
         self.raster
             .record(frame, stage, mirror, found, variant, |pass| {
@@ -65,23 +66,15 @@ impl Refine for None {
     }
 
     fn vertices(&self, gpu: &Gpu, stage: &Stage, search: &dyn Search) -> Vec<VertexResult> {
-        let places: Vec<_> = stage.world.places().collect();
-        let batches = stage.world.mirrors.iter().zip(&self.batches);
-        batches
-            .flat_map(|(mirror, batch)| batch.results(gpu, mirror.id, &places, search.has_holes()))
-            .collect()
+        self.originals.vertices(gpu, stage, search)
     }
 
     fn efforts(&self, gpu: &Gpu, stage: &Stage) -> Efforts {
-        let mut total = Efforts::default();
-        for batch in &self.batches {
-            total.add(batch.total(gpu, stage.world.vertices()));
-        }
-        total
+        self.originals.efforts(gpu, stage)
     }
 
     fn triangles(&self, _gpu: &Gpu, stage: &Stage) -> Triangles {
-        let drawn = u64::from(stage.world.corners / 3) * self.batches.len() as u64;
+        let drawn = u64::from(stage.world.corners / 3) * self.originals.batches.len() as u64;
         Triangles {
             input: drawn,
             drawn,

@@ -5,6 +5,7 @@
 mod linear;
 mod ray_hierarchy;
 mod reflector_cubemap;
+mod tessellation;
 
 use glam::{IVec2, Vec3, Vec4};
 

@@ -1,0 +1,251 @@
+//! Tessellation of the reflected geometry (Szabo 2013, chapter 5; Szabo CESCG, section 4.2).
+//!
+//! A loop on the GPU, without read-back: judge the triangles being worked on, finish them or split
+//! them into four, search the new points, and again, until the level limit; then draw what is
+//! finished and what is left over. A scene is worked off in chunks of its triangles ([`Plan`]),
+//! each drawn before the next. Slots come from prefix sums, so that neither pictures nor counts
+//! depend on the order in which threads run.
+
+mod junctions;
+mod passes;
+mod plan;
+#[cfg(test)]
+pub(crate) mod tests;
+
+use catoptric_frame::{Triangles, VertexResult};
+use catoptric_scene::Scene;
+use encase::{ShaderType, StorageBuffer};
+
+use super::originals::Originals;
+use super::{Context, Refine};
+use crate::ReflectError;
+use crate::data::Piece;
+use crate::gpu::Gpu;
+use crate::points::Efforts;
+use crate::recorder::Recorder;
+use crate::search::Search;
+use crate::spec::Options;
+use crate::stage::Stage;
+use crate::technique::Variant;
+use crate::timing::Timer;
+
+use passes::Passes;
+pub(crate) use plan::DEEPEST;
+use plan::Plan;
+
+/// Which triangles are split.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Rule {
+    /// How often a triangle may be split.
+    pub level: u32,
+    /// Edge error in 0..=1 from which a triangle is split: 0 splits all, 1 none. `None` splits
+    /// all without asking.
+    pub threshold: Option<f32>,
+}
+
+/// Twin of `Settings` in `tessellation.wesl`.
+#[derive(Clone, Copy, Debug, ShaderType)]
+pub(crate) struct Settings {
+    pub threshold: f32,
+    pub level: u32,
+}
+
+/// Twin of `Chunk` in `tessellation.wesl`.
+#[derive(Clone, Copy, Debug, ShaderType)]
+pub(crate) struct Chunk {
+    pub first: u32,
+    pub count: u32,
+}
+
+/// Twin of `Level` in `tessellation.wesl`, as far as the CPU reads it.
+#[derive(Clone, Copy, Debug, ShaderType)]
+pub(crate) struct Level {
+    pub groups: glam::UVec3,
+    pub count: u32,
+    pub draw: glam::UVec4,
+    pub finished: u32,
+    pub points: u32,
+    pub splits: u32,
+    pub index: u32,
+}
+
+/// Twin of `Totals` in `tessellation.wesl`.
+#[derive(Clone, Copy, Debug, ShaderType)]
+pub(crate) struct Totals {
+    pub by_level: [u32; 12],
+    pub points: u32,
+    pub unfinished: u32,
+}
+
+/// A finished triangle, on the CPU.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Leaf {
+    pub piece: Piece,
+    /// World-space corners.
+    pub corners: [glam::Vec3; 3],
+    /// All corners are reflected: it is drawn.
+    pub drawn: bool,
+}
+
+/// A refinement by a [`Rule`].
+pub(crate) struct Tessellation {
+    rule: Rule,
+    plan: Plan,
+    originals: Originals,
+    passes: Passes,
+}
+
+/// Why a rule is not for a scene: more triangles than can be counted.
+pub(crate) fn objection(options: &Options, scene: &Scene) -> Option<String> {
+    let level = options.whole("level");
+    let triangles = scene.triangle_count() as u64 * scene.mirrors.len() as u64;
+    let most = triangles.saturating_mul(4_u64.pow(level));
+    (most > u64::from(u32::MAX)).then(|| {
+        format!("level {level} can make {most} triangles of {triangles}; a frame counts 32 bits")
+    })
+}
+
+impl Tessellation {
+    pub(crate) fn new(context: &Context<'_>, rule: Rule) -> Result<Self, ReflectError> {
+        let binding = context.gpu.device.limits().max_storage_buffer_binding_size;
+        Self::within(context, rule, binding)
+    }
+
+    /// As if a shader could see no buffer of more than `binding` bytes.
+    fn within(context: &Context<'_>, rule: Rule, binding: u64) -> Result<Self, ReflectError> {
+        let plan = Plan::new(context.stage.world.corners / 3, rule.level, binding);
+        let originals = Originals::new(context);
+        let passes = Passes::new(context, rule, plan, &originals)?;
+        Ok(Self {
+            rule,
+            plan,
+            originals,
+            passes,
+        })
+    }
+
+    /// The finished triangles of the last frame's `mirror`, chunk by chunk, made again: the
+    /// buffers only ever hold one chunk.
+    pub(crate) fn leaves(
+        &self,
+        gpu: &Gpu,
+        stage: &Stage,
+        search: &dyn Search,
+        mirror: usize,
+        mut each: impl FnMut(Leaf),
+    ) {
+        let answers = (self.originals.batches[mirror]).read_found(gpu, stage.world.vertices());
+        let vertices: Vec<_> = (stage.world.scene.objects.iter())
+            .flat_map(|object| object.mesh.positions.iter().copied())
+            .collect();
+        let totals = gpu.read_buffer(&self.passes.totals);
+        for chunk in 0..self.plan.chunks().count() {
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            let mut unstamped = Timer::none();
+            let mut frame = Recorder::new(&mut encoder, &mut unstamped);
+            let variant = Variant::Color;
+            self.passes
+                .record(&mut frame, stage, search, [mirror, chunk], variant);
+            gpu.queue.submit([encoder.finish()]);
+            let made = self.passes.read(gpu, self.plan.level);
+            for piece in made.pieces {
+                let of = |point: u32| {
+                    let place = (point & !Piece::NEW) as usize;
+                    if point & Piece::NEW == 0 {
+                        (vertices[place], answers[place].state)
+                    } else {
+                        (made.points[place], made.found[place].state)
+                    }
+                };
+                let corners = piece.points.to_array().map(of);
+                each(Leaf {
+                    piece,
+                    corners: corners.map(|(position, _)| position),
+                    drawn: corners
+                        .iter()
+                        .all(|(_, state)| *state == crate::data::Found::FOUND),
+                });
+            }
+        }
+        gpu.queue.write_buffer(&self.passes.totals, 0, &totals);
+    }
+
+    fn totals(&self, gpu: &Gpu) -> Totals {
+        let bytes = gpu.read_buffer_part(&self.passes.totals, Totals::min_size().get());
+        StorageBuffer::new(bytes)
+            .create()
+            .expect("the buffer holds the totals")
+    }
+}
+
+impl Refine for Tessellation {
+    fn update(&mut self, _gpu: &Gpu, _stage: &Stage) {}
+
+    fn begin_frame(&mut self, gpu: &Gpu, stage: &Stage, warm: bool) {
+        self.originals.begin_frame(gpu, stage, warm);
+        self.passes.begin_frame(gpu);
+    }
+
+    fn record(
+        &self,
+        frame: &mut Recorder<'_>,
+        stage: &Stage,
+        search: &dyn Search,
+        mirror: usize,
+        variant: Variant,
+    ) {
+        self.originals.record(frame, stage, search, mirror, variant);
+        for chunk in 0..self.plan.chunks().count() {
+            self.passes
+                .record(frame, stage, search, [mirror, chunk], variant);
+            self.passes.draw(frame, stage, mirror, variant);
+        }
+    }
+
+    fn vertices(&self, gpu: &Gpu, stage: &Stage, search: &dyn Search) -> Vec<VertexResult> {
+        self.originals.vertices(gpu, stage, search)
+    }
+
+    fn efforts(&self, gpu: &Gpu, stage: &Stage) -> Efforts {
+        let mut efforts = self.originals.efforts(gpu, stage);
+        let [steps, evaluations, node_tests] = self.passes.effort_sums(gpu);
+        efforts.add(Efforts {
+            searched: self.totals(gpu).points.into(),
+            steps,
+            evaluations,
+            node_tests,
+        });
+        efforts
+    }
+
+    fn triangles(&self, gpu: &Gpu, _stage: &Stage) -> Triangles {
+        let totals = self.totals(gpu);
+        let by_level = totals.by_level[..=self.plan.level as usize].iter();
+        let by_level: Vec<_> = by_level.map(|count| u64::from(*count)).collect();
+        Triangles {
+            input: u64::from(self.plan.triangles) * self.originals.batches.len() as u64,
+            drawn: by_level.iter().sum(),
+            by_level,
+            unfinished: totals.unfinished.into(),
+        }
+    }
+
+    fn t_junctions(&self, gpu: &Gpu, stage: &Stage, search: &dyn Search) -> Option<u64> {
+        // Where all are split alike there is none.
+        if self.rule.threshold.is_none() || self.plan.level == 0 {
+            return Some(0);
+        }
+        let objects = junctions::objects(&stage.world.scene);
+        let mirrors = 0..self.originals.batches.len();
+        let count = mirrors.map(|mirror| {
+            let mut edges = junctions::Edges::default();
+            self.leaves(gpu, stage, search, mirror, |leaf| {
+                if leaf.drawn {
+                    edges.add(objects[leaf.piece.source as usize], leaf.corners);
+                }
+            });
+            edges.t_junctions(self.plan.level)
+        });
+        Some(count.sum())
+    }
+}

@@ -1,0 +1,229 @@
+//! What the loop promises, on the software adapter.
+
+use catoptric_scene::Scene;
+use glam::Vec3;
+
+use super::*;
+use crate::points::points_layout;
+use crate::spec::parse;
+use crate::testing::{Searched, gpu_or_skip, scene};
+use crate::{Output, prepare};
+
+const SIZE: [u32; 2] = [160, 120];
+
+/// A scene tessellated on all mirrors.
+pub(crate) struct Tessellated {
+    pub searched: Searched,
+    pub rule: Rule,
+    tessellation: Tessellation,
+}
+
+impl Tessellated {
+    pub(crate) fn new(gpu: &Gpu, scene: &Scene, technique: &str, size: [u32; 2]) -> Self {
+        Self::within(gpu, scene, technique, size, 128 << 20)
+    }
+
+    fn within(gpu: &Gpu, scene: &Scene, technique: &str, size: [u32; 2], binding: u64) -> Self {
+        let spec = parse(technique).expect("a technique");
+        let (search, _) = technique.split_once('+').expect("a refinement");
+        let searched = Searched::new(gpu, scene, search, size);
+        let options = spec.refinement().expect("a refinement");
+        let rule = Rule {
+            level: options.whole("level"),
+            threshold: (options.name() == "+adaptive").then(|| options.number("threshold") as f32),
+        };
+        let context = Context {
+            gpu,
+            search_options: &spec.options,
+            options: Some(options),
+            stage: &searched.stage,
+            points_layout: &points_layout(gpu),
+        };
+        let mut tessellation =
+            Tessellation::within(&context, rule, binding).expect("fits the device");
+        tessellation.begin_frame(gpu, &searched.stage, false);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let mut unstamped = Timer::none();
+        let mut frame = Recorder::new(&mut encoder, &mut unstamped);
+        for mirror in 0..searched.stage.world.mirrors.len() {
+            let search = searched.search.as_ref();
+            let variant = Variant::AllLayers;
+            tessellation.record(&mut frame, &searched.stage, search, mirror, variant);
+        }
+        gpu.queue.submit([encoder.finish()]);
+        Self {
+            searched,
+            rule,
+            tessellation,
+        }
+    }
+
+    /// The finished triangles of a mirror.
+    pub(crate) fn leaves(&self, gpu: &Gpu, mirror: usize) -> Vec<Leaf> {
+        let mut leaves = Vec::new();
+        let search = self.searched.search.as_ref();
+        let stage = &self.searched.stage;
+        (self.tessellation).leaves(gpu, stage, search, mirror, |leaf| leaves.push(leaf));
+        leaves
+    }
+}
+
+fn output(gpu: &Gpu, scene: &Scene, technique: &str) -> Output {
+    let spec = parse(technique).expect("a technique");
+    let mut prepared = prepare(gpu, &spec, scene, SIZE).expect("fits the device");
+    prepared.render().expect("renders")
+}
+
+fn same(a: &Output, b: &Output) -> bool {
+    let layers = |output: &Output| {
+        let reflected = output.frame.reflected.clone().expect("all layers");
+        (output.frame.color.clone(), reflected.position, reflected.id)
+    };
+    layers(a) == layers(b)
+        && (a.searched, &a.triangles) == (b.searched, &b.triangles)
+        && a.work == b.work
+}
+
+#[test]
+fn threshold_0_is_full_and_1_is_none() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let scene = scene("sphere-square");
+    let full = output(&gpu, &scene, "linear+full(level=4)");
+    let zero = output(&gpu, &scene, "linear+adaptive(level=4,threshold=0)");
+    let triangles = |output: &Output| output.triangles.clone().expect("counted");
+    assert_eq!(triangles(&full).by_level, triangles(&zero).by_level);
+    assert_eq!(full.frame.color, zero.frame.color);
+    assert_eq!(full.searched, zero.searched);
+    assert_eq!(
+        (
+            triangles(&full).unfinished,
+            triangles(&zero).unfinished > 100
+        ),
+        (0, true)
+    );
+
+    let none = output(&gpu, &scene, "linear");
+    for technique in ["linear+adaptive(threshold=1)", "linear+full(level=0)"] {
+        let one = output(&gpu, &scene, technique);
+        let counts = triangles(&one);
+        assert_eq!(
+            (counts.by_level[0], counts.drawn, counts.unfinished),
+            (2, 2, 0)
+        );
+        assert_eq!(one.frame.color, none.frame.color);
+        assert_eq!((one.searched, one.work), (none.searched, none.work));
+    }
+}
+
+#[test]
+fn every_frame_is_the_same_to_the_bit() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let scene = scene("spheres");
+    let spec = parse("linear+adaptive(level=2)").expect("a technique");
+    let mut prepared = prepare(&gpu, &spec, &scene, SIZE).expect("fits the device");
+    let first = prepared.render().expect("renders");
+    assert!(
+        first
+            .triangles
+            .as_ref()
+            .is_some_and(|triangles| triangles.by_level[1] > 0)
+    );
+    for _ in 0..2 {
+        prepared.time_frame().expect("renders");
+        assert!(same(&first, &prepared.render().expect("renders")));
+    }
+}
+
+#[test]
+fn chunks_make_the_same_triangles() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let scene = scene("sphere-table");
+    let technique = "linear+adaptive(level=2,threshold=0.01)";
+    let whole = Tessellated::new(&gpu, &scene, technique, SIZE);
+    // Room for 1,024 triangles: chunks of 64.
+    let parts = Tessellated::within(&gpu, &scene, technique, SIZE, 32 << 10);
+    assert_eq!(parts.tessellation.plan.chunk, 64);
+    let key = |leaf: &Leaf| (leaf.piece.source, leaf.piece.places.to_array(), leaf.drawn);
+    let keys = |made: &Tessellated| {
+        let mut keys: Vec<_> = made.leaves(&gpu, 0).iter().map(key).collect();
+        keys.sort_unstable();
+        keys
+    };
+    assert_eq!(keys(&whole), keys(&parts));
+    let counted = |made: &Tessellated| {
+        let stage = &made.searched.stage;
+        let efforts = made.tessellation.efforts(&gpu, stage);
+        let triangles = made.tessellation.triangles(&gpu, stage);
+        (
+            triangles,
+            efforts.searched,
+            efforts.steps,
+            efforts.evaluations,
+        )
+    };
+    assert_eq!(counted(&whole), counted(&parts));
+    let junctions = |made: &Tessellated| {
+        let search = made.searched.search.as_ref();
+        made.tessellation
+            .t_junctions(&gpu, &made.searched.stage, search)
+    };
+    assert_eq!(junctions(&whole), junctions(&parts));
+}
+
+#[test]
+fn pieces_lie_in_their_source() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let scene = scene("sphere-objects-1k");
+    let made = Tessellated::new(&gpu, &scene, "linear+full(level=2)", SIZE);
+    let mut sources: Vec<[Vec3; 3]> = Vec::new();
+    for object in &scene.objects {
+        let position = |vertex: u32| object.mesh.positions[vertex as usize];
+        sources.extend(
+            object
+                .mesh
+                .triangles
+                .iter()
+                .map(|corners| corners.map(position)),
+        );
+    }
+    // The middles are rounded twice.
+    const ROUNDING: f32 = 1e-6;
+    let leaves = made.leaves(&gpu, 0);
+    assert!(leaves.len() > sources.len());
+    for leaf in leaves {
+        let [a, b, c] = sources[leaf.piece.source as usize];
+        for (place, corner) in leaf.piece.places.to_array().into_iter().zip(leaf.corners) {
+            let second = (place & 0xffff) as f32 / 16384.0;
+            let third = (place >> 16) as f32 / 16384.0;
+            let expected = a * (1.0 - second - third) + b * second + c * third;
+            assert!(corner.distance(expected) < ROUNDING * (1.0 + corner.length()));
+        }
+    }
+}
+
+#[test]
+fn only_what_is_nowhere_reflected_stops_early() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let scene = scene("sphere-square");
+    let made = Tessellated::new(&gpu, &scene, "linear+full(level=4)", SIZE);
+    let leaves = made.leaves(&gpu, 0);
+    let early = leaves.iter().filter(|leaf| leaf.piece.level < 4);
+    assert!(early.clone().all(|leaf| !leaf.drawn));
+    let area = leaves
+        .iter()
+        .map(|leaf| 0.25_f64.powi(leaf.piece.level as i32));
+    assert_eq!(area.sum::<f64>(), 2.0, "the pieces fill both triangles");
+}
+
+#[test]
+fn neighbours_that_split_differently_meet_in_t_junctions() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let scene = scene("sphere-square");
+    let adaptive = output(&gpu, &scene, "linear+adaptive(level=5,threshold=0.00003)");
+    assert!(adaptive.t_junctions.is_some_and(|count| count > 0));
+    assert_eq!(
+        output(&gpu, &scene, "linear+full(level=4)").t_junctions,
+        Some(0)
+    );
+    assert_eq!(output(&gpu, &scene, "linear").t_junctions, None);
+}

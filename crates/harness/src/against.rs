@@ -15,7 +15,7 @@ enum Good {
 
 /// Metrics that can get better or worse. What is not listed (sizes, counts of what was there to
 /// do) is judged by nobody.
-const JUDGED: [(&str, Good); 27] = [
+const JUDGED: [(&str, Good); 28] = [
     ("object_agreement", Good::High),
     ("coverage.missing", Good::Low),
     ("coverage.extra", Good::Low),
@@ -27,6 +27,7 @@ const JUDGED: [(&str, Good); 27] = [
     ("angular_error_deg.p95", Good::Low),
     ("angular_error_deg.p99", Good::Low),
     ("angular_error_deg.max", Good::Low),
+    ("edge_offset_px.p50", Good::Low),
     ("color.mae", Good::Low),
     ("color.rmse", Good::Low),
     ("color.psnr", Good::High),

@@ -138,7 +138,10 @@ pub struct Compared {
 /// Compares a technique's picture and reflection points with the truth.
 pub fn compare(scene: &Scene, truth: &Truth, output: &Output) -> Result<Compared, Blank> {
     let failed = |error: catoptric_metrics::MetricsError| (Status::Failed, error.to_string());
-    let options = CompareOptions::default();
+    let options = CompareOptions {
+        t_junctions: output.t_junctions,
+        ..CompareOptions::default()
+    };
     let first =
         catoptric_metrics::compare_with(&truth.first, &output.frame, &options).map_err(failed)?;
     let full =
@@ -206,6 +209,7 @@ pub fn record(
         object_agreement,
         mismatch,
         angular_error_deg,
+        edge_offset_px,
         color,
         non_finite,
         regions,
@@ -219,6 +223,7 @@ pub fn record(
     row.object_agreement = object_agreement;
     row.mismatch = mismatch;
     row.angular_error_deg = angular_error_deg;
+    row.edge_offset_px = edge_offset_px;
     row.color = color;
     row.non_finite = Some(non_finite);
     row.regions = Some(regions);

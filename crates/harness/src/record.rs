@@ -47,6 +47,8 @@ pub struct Record {
     pub object_agreement: Option<f64>,
     /// Angle at the mirror between the shown and the true point, degrees.
     pub angular_error_deg: Option<Summary>,
+    /// Distance from the true edges of reflected objects to the nearest shown, pixels.
+    pub edge_offset_px: Option<Summary>,
     /// Colour errors on the mirror mask.
     pub color: Option<ColorError>,
     /// Reflection points against the exact ones.
@@ -230,6 +232,7 @@ impl Record {
             coverage: None,
             object_agreement: None,
             angular_error_deg: None,
+            edge_offset_px: None,
             color: None,
             vertices: None,
             triangles: None,

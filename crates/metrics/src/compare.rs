@@ -6,6 +6,7 @@ use glam::Vec3;
 use crate::MetricsError;
 use crate::color::ColorMaps;
 use crate::coverage::{Layers, is_reflecting, rim};
+use crate::edges::edge_offset;
 use crate::flip::DEFAULT_PIXELS_PER_DEGREE;
 use crate::record::{ColorError, Comparison, Coverage, Mismatch, NonFinite, Region, Regions};
 use crate::stats::Summary;
@@ -55,6 +56,7 @@ pub fn compare_with(
         object_agreement: whole.object_agreement,
         mismatch: mismatch(&layers),
         angular_error_deg: whole.angular_error_deg,
+        edge_offset_px: edge_offset(&layers),
         color: whole.color,
         non_finite: non_finite(&layers, &reference.color, &test.color),
         regions: Regions {

@@ -8,6 +8,7 @@
 mod color;
 pub mod compare;
 pub mod coverage;
+mod edges;
 mod filter;
 pub mod flip;
 pub mod maps;

@@ -18,6 +18,9 @@ pub struct Comparison {
     /// At mirror pixels where both see the same object: the angle at the reference's mirror point
     /// between the directions to the two hit positions, in degrees. `None` without such pixels.
     pub angular_error_deg: Option<Summary>,
+    /// Distance in pixels from the reference's edges of reflected objects to the nearest that the
+    /// technique shows. `None` where either shows no edge.
+    pub edge_offset_px: Option<Summary>,
     /// Colour on the mirror mask. `None` without pixels to compare.
     pub color: Option<ColorError>,
     /// Mirror pixels with NaN or infinity in either picture; left out of the means.

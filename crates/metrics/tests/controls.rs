@@ -123,6 +123,7 @@ fn identical_frames_are_without_any_error() {
     let mismatch = same.mismatch.unwrap();
     assert_eq!((mismatch.boundary, mismatch.interior), (0.0, 0.0));
     assert_eq!(same.angular_error_deg.unwrap().max, 0.0);
+    assert_eq!(same.edge_offset_px.unwrap().max, 0.0);
     let regions = [same.color, same.regions.image, same.regions.rim.color];
     for color in regions.into_iter().chain([same.regions.interior.color]) {
         let color = color.unwrap();
@@ -152,6 +153,12 @@ fn one_pixel_to_the_right_trips_everything() {
     let expected = 0.1_f64.atan().to_degrees();
     let angle = shifted.angular_error_deg.unwrap();
     assert!((angle.p50 - expected).abs() < 1e-4 && (angle.max - expected).abs() < 1e-4);
+    // Upright edges move by a pixel, level ones along themselves.
+    let edges = shifted.edge_offset_px.unwrap();
+    assert!(
+        edges.max == 1.0 && edges.mean > 0.3 && edges.mean < 0.7,
+        "{edges:?}"
+    );
     let color = shifted.color.unwrap();
     assert!(color.mae > 0.01 && color.rmse > 0.02 && color.psnr.unwrap() < 35.0);
     assert!(color.ssim < 0.95 && color.flip > 0.02, "{color:?}");

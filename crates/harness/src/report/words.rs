@@ -161,7 +161,7 @@ fn capitalized(text: &str) -> String {
 fn vertices(row: &Record) -> Option<String> {
     let vertices = row.vertices.as_ref()?;
     let mut text = format!(
-        "Of {} searched vertices {} truly have a reflection in view",
+        "{} searches were run, and {} of the scene's vertices truly have a reflection in view",
         count(vertices.searched),
         count(vertices.reflected)
     );

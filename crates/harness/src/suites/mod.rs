@@ -29,6 +29,7 @@ mod page;
 mod plan;
 mod results;
 mod search;
+mod tessellation;
 
 use std::path::{Path, PathBuf};
 
@@ -61,7 +62,7 @@ pub struct Suite {
 pub type MakePictures = fn(&Studio<'_>) -> anyhow::Result<Vec<Picture>>;
 
 /// Every suite, by name.
-pub const SUITES: [&Suite; 1] = [&search::SUITE];
+pub const SUITES: [&Suite; 2] = [&search::SUITE, &tessellation::SUITE];
 
 /// What a suite's own pictures are made with.
 pub struct Studio<'s> {

@@ -28,6 +28,13 @@ impl<'r> Results<'r> {
         self.rows.iter().find(|(row, _)| plan::is_of(row, point))
     }
 
+    /// The row of the last measured point of a series.
+    pub fn last(&self, series: &str) -> Option<&'r Record> {
+        let mut all = self.figure.series.iter();
+        let series = all.find(|found| found.label == series)?;
+        series.points.iter().rev().find_map(|point| self.row(point))
+    }
+
     /// A number of a point's row; `None` where it is `null` or not measured.
     pub fn value(&self, point: &Point, path: &str) -> Option<f64> {
         let (row, value) = self.find(point)?;

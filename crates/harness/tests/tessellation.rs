@@ -1,0 +1,55 @@
+//! Tessellation judged by the truth; skipped without an adapter, unless `CATOPTRIC_REQUIRE_GPU=1`.
+
+mod support;
+
+use serde_json::Value;
+use support::{catoptric, code, gpu_or_skip, json, stderr};
+
+fn compare(scene: &str, techniques: &[&str]) -> Vec<Value> {
+    let size = ["--resolution", "320x240", "--time-budget", "0.01"];
+    let named = techniques.iter().flat_map(|technique| ["-t", technique]);
+    let args = ["compare", scene, "--format", "json"];
+    let args = args.into_iter().chain(size).chain(named);
+    let output = catoptric(&args.collect::<Vec<_>>());
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    json(&output).as_array().cloned().unwrap_or_default()
+}
+
+#[test]
+fn splitting_often_enough_shows_the_truth() {
+    if !gpu_or_skip() {
+        return;
+    }
+    let levels = [1, 2, 3, 4, 5, 6].map(|level| format!("linear+full(level={level})"));
+    let techniques = levels.each_ref().map(String::as_str);
+    let rows = compare("sphere-square", &techniques);
+    let angle = |row: &Value| row["angular_error_deg"]["p50"].as_f64().expect("a median");
+    for pair in rows[..5].windows(2) {
+        assert!(
+            angle(&pair[0]) > angle(&pair[1]),
+            "{}",
+            pair[1]["technique"]
+        );
+    }
+    // The floor of whole-pixel answers: an answer is half a pixel off, whatever the triangles, and
+    // those of level 6 are hardly larger than a pixel.
+    const OF_FLOOR: f64 = 1.1;
+    assert!(angle(&rows[5]) < OF_FLOOR * angle(&rows[4]));
+    assert!(rows[5]["object_agreement"].as_f64() >= Some(0.99));
+    // Searches that were run: the square's corners and three a split.
+    assert!(rows[0]["vertices"]["searched"] == 4 + 3 * 2);
+}
+
+#[test]
+fn the_published_rule_tears_the_surface() {
+    if !gpu_or_skip() {
+        return;
+    }
+    let rows = compare("crack", &["linear+adaptive", "linear+full(level=5)"]);
+    let coverage = |row: usize, what: &str| rows[row]["coverage"][what].as_u64();
+    assert!(coverage(0, "t_junctions") > Some(0) && coverage(0, "crack_pixels") > Some(10));
+    assert_eq!(
+        (coverage(1, "t_junctions"), coverage(1, "cracks")),
+        (Some(0), Some(0))
+    );
+}

@@ -61,6 +61,8 @@ pub enum VertexClass {
     Hidden,
     /// In front, but the reflection would lie beyond an open mirror's rim.
     Unreflected,
+    /// The exact answer could not be decided: the vertex counts nowhere.
+    Unknown,
 }
 
 /// Triangles of one frame, all mirrors together.

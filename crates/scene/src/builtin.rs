@@ -30,7 +30,7 @@ macro_rules! scenes {
 }
 
 /// Scenes with a file of their own.
-const SCENES: [(&str, &str); 20] = scenes![
+const SCENES: [(&str, &str); 22] = scenes![
     "sphere-square",
     "sphere-objects-1k",
     "sphere-objects-20k",
@@ -46,6 +46,8 @@ const SCENES: [(&str, &str); 20] = scenes![
     "box",
     "room",
     "atrium",
+    "torus",
+    "saddle",
     "prototype-sphere",
     "prototype-ellipsoid",
     "prototype-bowl",

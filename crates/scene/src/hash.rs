@@ -202,6 +202,33 @@ impl Hasher {
                 self.vector(*axis);
                 self.number(*half_angle);
             }
+            Shape::Torus {
+                center,
+                axis,
+                major,
+                minor,
+            } => {
+                self.tag("torus");
+                self.vector(*center);
+                self.vector(*axis);
+                self.number(*major);
+                self.number(*minor);
+            }
+            Shape::Saddle {
+                center,
+                normal,
+                up,
+                size,
+                curvature,
+            } => {
+                self.tag("saddle");
+                [center, normal, up]
+                    .into_iter()
+                    .for_each(|vector| self.vector(*vector));
+                [size.x, size.y, curvature.x, curvature.y]
+                    .into_iter()
+                    .for_each(|number| self.number(number));
+            }
             Shape::Mesh(mesh) => {
                 self.tag("mesh");
                 self.mesh(mesh);

@@ -38,9 +38,11 @@ pub mod motion;
 mod mtl;
 mod obj;
 mod random;
+mod saddle;
 mod shapes;
 mod surface;
 mod tessellate;
+mod torus;
 
 pub use camera::{Camera, Fov, View};
 pub use error::SceneError;

@@ -57,6 +57,33 @@ pub enum Shape {
         /// Radians, in (0, π).
         half_angle: f64,
     },
+    /// Reflects on its outside: the points `minor` away from a circle.
+    Torus {
+        /// Centre of the circle.
+        center: DVec3,
+        /// Unit, perpendicular to the circle.
+        axis: DVec3,
+        /// Radius of the circle.
+        major: f64,
+        /// Radius of the tube, positive and smaller than `major`.
+        minor: f64,
+    },
+    /// The points `center + x · right + y · up + z · normal` over a rectangle, with
+    /// `right = up × normal` and `z = (curvature.x · x² + curvature.y · y²)/2`, reflecting on the
+    /// side its normals point to.
+    Saddle {
+        /// Middle of the patch.
+        center: DVec3,
+        /// Unit normal in the middle, on the reflecting side.
+        normal: DVec3,
+        /// Unit, perpendicular to `normal`.
+        up: DVec3,
+        /// Full extent along `right` and `up`.
+        size: DVec2,
+        /// Curvatures in the middle along `right` and `up`, of opposite signs; positive ones bend
+        /// towards the reflecting side.
+        curvature: DVec2,
+    },
     /// Triangles with shading normals (never empty), reflecting where the normals point.
     Mesh(Mesh),
 }

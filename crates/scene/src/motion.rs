@@ -215,12 +215,15 @@ impl Pose {
             }
             Shape::Plane {
                 center, normal, up, ..
+            }
+            | Shape::Saddle {
+                center, normal, up, ..
             } => {
                 *center = self.point(*center);
                 *normal = self.turn(*normal);
                 *up = self.turn(*up);
             }
-            Shape::Bowl { center, axis, .. } => {
+            Shape::Bowl { center, axis, .. } | Shape::Torus { center, axis, .. } => {
                 *center = self.point(*center);
                 *axis = self.turn(*axis);
             }

@@ -1,9 +1,11 @@
 //! Exact intersection with mirror surfaces, in f64.
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 use crate::mesh::Mesh;
 use crate::mirror::{Shape, SurfaceHit};
+use crate::saddle::Patch;
+use crate::torus;
 
 impl Shape {
     /// Nearest hit with `t > t_min` of the ray `origin + t · dir` (`dir` of unit length), from
@@ -82,6 +84,42 @@ impl Shape {
                         normal: -outward,
                     })
             }
+            Self::Torus {
+                center,
+                axis,
+                major,
+                minor,
+            } => {
+                let start = origin - *center;
+                let t = torus::roots(start, dir, *axis, *major, *minor)
+                    .iter()
+                    .find(|t| *t > t_min)?;
+                let point = start + t * dir;
+                let (off, normal) = torus::distance(point, *axis, *major, *minor);
+                Some(SurfaceHit {
+                    t,
+                    position: *center + (point - off * normal),
+                    normal,
+                })
+            }
+            Self::Saddle {
+                center,
+                normal,
+                up,
+                size,
+                curvature,
+            } => {
+                let (frame, patch) = saddle(*normal, *up, *size, *curvature);
+                let local = frame.transpose() * (origin - *center);
+                let local_dir = frame.transpose() * dir;
+                let t = patch.roots(local, local_dir).find(|t| *t > t_min)?;
+                let at = (local + t * local_dir).truncate();
+                Some(SurfaceHit {
+                    t,
+                    position: *center + frame * patch.point(at),
+                    normal: frame * patch.normal(at),
+                })
+            }
             Self::Mesh(_) => None,
         }
     }
@@ -101,6 +139,23 @@ impl Shape {
             }
             Self::Plane { normal, .. } => Some(*normal),
             Self::Bowl { center, .. } => Some((*center - point).normalize()),
+            Self::Torus {
+                center,
+                axis,
+                major,
+                minor,
+            } => Some(torus::distance(point - *center, *axis, *major, *minor).1),
+            Self::Saddle {
+                center,
+                normal,
+                up,
+                size,
+                curvature,
+            } => {
+                let (frame, patch) = saddle(*normal, *up, *size, *curvature);
+                let at = (frame.transpose() * (point - *center)).truncate();
+                Some(frame * patch.normal(at))
+            }
             Self::Mesh(_) => None,
         }
     }
@@ -114,14 +169,14 @@ impl Shape {
     /// A mesh is closed if each edge joins exactly two triangles (found anew at every call).
     pub fn is_closed(&self) -> bool {
         match self {
-            Self::Sphere { .. } | Self::Ellipsoid { .. } => true,
-            Self::Plane { .. } | Self::Bowl { .. } => false,
+            Self::Sphere { .. } | Self::Ellipsoid { .. } | Self::Torus { .. } => true,
+            Self::Plane { .. } | Self::Bowl { .. } | Self::Saddle { .. } => false,
             Self::Mesh(mesh) => mesh.is_closed(),
         }
     }
 
     /// True where no point can have more than one reflection point: sphere, ellipsoid, plane.
-    /// False for bowls, and for meshes, of which it is not known.
+    /// False for bowls, tori and saddles, and for meshes, of which it is not known.
     pub fn is_convex(&self) -> bool {
         matches!(
             self,
@@ -138,7 +193,13 @@ impl Shape {
                 radii,
                 rotation,
             } => (rotation.transpose() * (point - *center) / *radii).length() < 1.0,
-            Self::Plane { .. } | Self::Bowl { .. } => false,
+            Self::Torus {
+                center,
+                axis,
+                major,
+                minor,
+            } => torus::distance(point - *center, *axis, *major, *minor).0 < 0.0,
+            Self::Plane { .. } | Self::Bowl { .. } | Self::Saddle { .. } => false,
             Self::Mesh(mesh) => mesh.is_closed() && mesh.winding_number(point).abs() > 0.5,
         }
     }
@@ -150,7 +211,9 @@ impl Shape {
             Self::Sphere { center, .. }
             | Self::Ellipsoid { center, .. }
             | Self::Plane { center, .. }
-            | Self::Bowl { center, .. } => *center,
+            | Self::Bowl { center, .. }
+            | Self::Torus { center, .. }
+            | Self::Saddle { center, .. } => *center,
             Self::Mesh(mesh) => mesh.bounds().map_or(DVec3::ZERO, |(low, high)| {
                 (low.as_dvec3() + high.as_dvec3()) / 2.0
             }),
@@ -188,6 +251,31 @@ impl Shape {
                 let half = (up.cross(*normal) * size.x / 2.0).abs() + (*up * size.y / 2.0).abs();
                 around(*center, half)
             }
+            Self::Torus {
+                center,
+                axis,
+                major,
+                minor,
+            } => {
+                let across = (DVec3::ONE - *axis * *axis).max(DVec3::ZERO);
+                let across = DVec3::new(across.x.sqrt(), across.y.sqrt(), across.z.sqrt());
+                around(*center, *major * across + *minor)
+            }
+            Self::Saddle {
+                center,
+                normal,
+                up,
+                size,
+                curvature,
+            } => {
+                let (frame, patch) = saddle(*normal, *up, *size, *curvature);
+                let [low, high] = patch.heights();
+                let half = patch.half.extend((high - low) / 2.0);
+                let half = frame.x_axis.abs() * half.x
+                    + frame.y_axis.abs() * half.y
+                    + frame.z_axis.abs() * half.z;
+                around(*center + *normal * (low + high) / 2.0, half)
+            }
             Self::Mesh(mesh) => mesh
                 .bounds()
                 .map_or((DVec3::ZERO, DVec3::ZERO), |(low, high)| {
@@ -195,6 +283,13 @@ impl Shape {
                 }),
         }
     }
+}
+
+/// A saddle's axes (right, up, normal) and its patch in them.
+pub(crate) fn saddle(normal: DVec3, up: DVec3, size: DVec2, curvature: DVec2) -> (DMat3, Patch) {
+    let frame = DMat3::from_cols(up.cross(normal), up, normal);
+    let half = size / 2.0;
+    (frame, Patch { half, curvature })
 }
 
 /// Both roots, ascending, of `|origin + t · dir| = 1`; `None` where the line misses.

@@ -289,10 +289,28 @@ fn messages_name_file_line_and_key() {
             &["`centre`", "`center`"],
         ),
         (
-            "\"sphere\"",
-            "\"torus\"",
-            16,
-            &["`torus`", "not yet supported"],
+            sphere,
+            "shape = \"torus\"\nmajor = 1",
+            14,
+            &["`minor`", "missing"],
+        ),
+        (
+            sphere,
+            "shape = \"torus\"\nmajor = 1\nminor = 1",
+            18,
+            &["`minor`", "smaller than `major`"],
+        ),
+        (
+            sphere,
+            "shape = \"saddle\"\nnormal = [0, 0, 1]\nsize = [1, 1]\ncurvature = [1, 0.5]",
+            19,
+            &["`curvature`", "opposite signs"],
+        ),
+        (
+            sphere,
+            "shape = \"saddle\"\nnormal = [0, 1, 0]\nsize = [1, 1]\ncurvature = [1, -1]",
+            14,
+            &["`up`", "parallel"],
         ),
         ("\"sphere\"", "\"spere\"", 16, &["`spere`", "`sphere`"]),
         (

@@ -45,6 +45,20 @@ radius = 1.0
 axis = [0.3, 0.0, -1.0]
 half_angle_deg = 70
 [[mirror]]
+name = "ring"
+shape = "torus"
+center = [3.0, 3.0, 0.0]
+axis = [0.2, 1.0, 0.4]
+major = 0.7
+minor = 0.2
+[[mirror]]
+name = "saddle"
+shape = "saddle"
+center = [-3.0, 3.0, 0.0]
+normal = [0.3, 0.2, 1.0]
+size = [1.0, 1.4]
+curvature = [0.8, -0.4]
+[[mirror]]
 name = "pot"
 shape = "teapot"
 n = 2
@@ -58,7 +72,10 @@ fn moving() -> Scene {
             "[[motion.move]]\nname = \"{name}\"\ntranslate = [0.5, -0.25, 1.0]\nrotate_deg = [0, 60, 0]\nabout = [1, 2, 3]\n"
         )
     };
-    let steps = ["box", "ball", "egg", "pane", "bowl", "pot"].map(step);
+    let steps = [
+        "box", "ball", "egg", "pane", "bowl", "ring", "saddle", "pot",
+    ]
+    .map(step);
     load(&format!("{STILL}[motion]\nframes = 5\n{}", steps.join("")))
 }
 

@@ -35,6 +35,25 @@ fn shapes() -> Vec<Shape> {
             axis: DVec3::X,
             half_angle: 2.5,
         },
+        Shape::Torus {
+            center,
+            axis: rotation * DVec3::Y,
+            major: 1.2,
+            minor: 0.4,
+        },
+        Shape::Torus {
+            center,
+            axis: DVec3::Z,
+            major: 1.3,
+            minor: 0.02,
+        },
+        Shape::Saddle {
+            center,
+            normal: rotation * DVec3::Z,
+            up: rotation * DVec3::Y,
+            size: DVec2::new(2.0, 1.4),
+            curvature: DVec2::new(0.9, -0.5),
+        },
     ]
 }
 
@@ -67,6 +86,28 @@ fn sample(shape: &Shape, u: f64, v: f64) -> DVec3 {
             let local = unit(1.0 - v * (1.0 - half_angle.cos()));
             let (x, y) = axis.any_orthonormal_pair();
             *center + *radius * (x * local.x + y * local.y + *axis * local.z)
+        }
+        Shape::Torus {
+            center,
+            axis,
+            major,
+            minor,
+        } => {
+            let (x, y) = axis.any_orthonormal_pair();
+            let outward = x * around.cos() + y * around.sin();
+            let (sin, cos) = (std::f64::consts::TAU * v).sin_cos();
+            *center + *major * outward + *minor * (outward * cos + *axis * sin)
+        }
+        Shape::Saddle {
+            center,
+            normal,
+            up,
+            size,
+            curvature,
+        } => {
+            let (x, y) = (size.x * (u - 0.5), size.y * (v - 0.5));
+            let z = (curvature.x * x * x + curvature.y * y * y) / 2.0;
+            *center + up.cross(*normal) * x + *up * y + *normal * z
         }
         Shape::Mesh(_) => unreachable!("no mesh among them"),
     }
@@ -155,7 +196,8 @@ fn proxies_lie_on_the_surface_with_its_normals_and_winding() {
                     let above = shape.intersect(position + exact, -exact, 0.5);
                     // The rim itself may be missed through rounding.
                     if let Some(hit) = above {
-                        assert!(hit.position.distance(position) < 1e-5, "{shape:?}");
+                        let off = hit.position.distance(position);
+                        assert!(off < 1e-5, "{shape:?}: {off} at {position}");
                     }
                 }
             }
@@ -178,7 +220,7 @@ fn a_segment_count_gives_half_as_many_rings() {
 
 #[test]
 fn covers_of_closed_surfaces_contain_them() {
-    for shape in &shapes()[..2] {
+    for shape in shapes().iter().filter(|shape| shape.is_closed()) {
         for segments in [4, 16, 17, 128] {
             let cover = shape.cover(segments);
             for corners in &cover.triangles {
@@ -250,4 +292,96 @@ fn boxes_hold_their_surfaces() {
             );
         }
     }
+}
+
+/// Exact hits against those of a fine proxy, which lies inside the surface by no more than
+/// `sagitta`, or for a saddle on either side.
+#[test]
+fn tori_and_saddles_are_where_their_tessellations_are() {
+    for shape in &shapes()[5..] {
+        let proxy = shape.tessellate(256);
+        let size = shape.bounds().1.distance(shape.bounds().0);
+        let mut both = 0;
+        for step in 0..600 {
+            let share = |factor: f64| (f64::from(step) * factor).fract();
+            let around = std::f64::consts::TAU * share(0.618_034);
+            let height = 2.0 * share(0.414_214) - 1.0;
+            let flat = (1.0 - height * height).sqrt();
+            let away = DVec3::new(flat * around.cos(), flat * around.sin(), height);
+            let origin = shape.center() + 2.0 * size * away;
+            let target = sample(shape, share(0.732_051), share(0.236_068));
+            let dir = (target - origin).normalize();
+            let exact = shape.intersect(origin, dir, 0.0);
+            let drawn = nearest(&proxy, origin, dir);
+            // Where a ray grazes, one may be met and the other not, or far apart.
+            let Some(hit) = exact.filter(|hit| hit.normal.dot(dir).abs() > 0.3) else {
+                continue;
+            };
+            let Some(t) = drawn else {
+                panic!("{shape:?}: the proxy is missed")
+            };
+            both += 1;
+            assert!((hit.t - t).abs() < 3e-3 * size, "{shape:?}: {} {t}", hit.t);
+        }
+        assert!(both > 300, "{shape:?}: {both}");
+    }
+}
+
+/// Distance along the ray to the nearest triangle.
+fn nearest(mesh: &Mesh, origin: DVec3, dir: DVec3) -> Option<f64> {
+    let hits = mesh.triangles.iter().filter_map(|corners| {
+        let [a, b, c] = corners.map(|index| mesh.positions[index as usize].as_dvec3());
+        let (ab, ac) = (b - a, c - a);
+        let p = dir.cross(ac);
+        let det = ab.dot(p);
+        let u = (origin - a).dot(p) / det;
+        let q = (origin - a).cross(ab);
+        let v = dir.dot(q) / det;
+        let t = ac.dot(q) / det;
+        (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0).then_some(t)
+    });
+    hits.min_by(f64::total_cmp)
+}
+
+#[test]
+fn a_torus_has_a_hole_and_an_inside() {
+    let torus = Shape::Torus {
+        center: DVec3::X,
+        axis: DVec3::Z,
+        major: 1.0,
+        minor: 0.25,
+    };
+    assert!(
+        torus
+            .intersect(DVec3::new(1.1, 0.2, 9.0), DVec3::NEG_Z, 0.0)
+            .is_none()
+    );
+    let hit = torus
+        .intersect(DVec3::new(2.0, 0.0, 9.0), DVec3::NEG_Z, 0.0)
+        .unwrap();
+    assert!((hit.t - 8.75).abs() < 1e-12 && hit.normal.distance(DVec3::Z) < 1e-12);
+    assert!(torus.contains(DVec3::new(2.1, 0.0, 0.1)) && !torus.contains(DVec3::X));
+    assert!(torus.is_closed() && !torus.is_convex() && torus.is_analytic());
+}
+
+#[test]
+fn a_saddle_rises_one_way_and_falls_the_other() {
+    let saddle = Shape::Saddle {
+        center: DVec3::ZERO,
+        normal: DVec3::Z,
+        up: DVec3::Y,
+        size: DVec2::new(2.0, 2.0),
+        curvature: DVec2::new(1.0, -0.5),
+    };
+    let height = |x: f64, y: f64| {
+        let hit = saddle.intersect(DVec3::new(x, y, 5.0), DVec3::NEG_Z, 0.0)?;
+        Some(5.0 - hit.t)
+    };
+    assert!((height(1.0, 0.0).unwrap() - 0.5).abs() < 1e-14);
+    assert!((height(0.0, 1.0).unwrap() + 0.25).abs() < 1e-14);
+    assert_eq!(height(1.1, 0.0), None);
+    // Both sides are met, and the normal is always that of the reflecting one.
+    let below = saddle.intersect(DVec3::NEG_Z, DVec3::Z, 0.0).unwrap();
+    assert!(below.normal.distance(DVec3::Z) < 1e-14);
+    assert!(!saddle.is_closed() && !saddle.is_convex() && saddle.is_analytic());
 }

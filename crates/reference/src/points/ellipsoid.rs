@@ -12,25 +12,28 @@ use catoptric_frame::VertexClass;
 use glam::{DMat2, DMat3, DVec2, DVec3};
 
 use super::Solutions;
-use crate::error::NotAvailable;
 
 /// A point is accepted if the sum of the unit vectors to eye and vertex has a component across
-/// the normal below this.
+/// the normal below this, and the rounding of both vectors.
 const RESIDUAL: f64 = 1e-12;
 
+/// Rounding of a unit vector, as a multiple of its end's share of its length.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// A straight way that stays clear of the body by less than this share of its size touches it:
+/// far below what single precision can tell of where a vertex is.
+const TOUCHING: f64 = 1e-9;
+
 /// Solutions on an ellipsoid that reflects on its outside: one, or none where the straight way
-/// from eye to vertex is blocked.
-///
-/// # Errors
-/// If the iteration does not come below its residual: only where the way all but touches the
-/// surface, or eye or vertex all but lie on it.
+/// from eye to vertex is blocked, or touches; `Unknown` if the iteration does not come below its
+/// residual, which has not been seen to happen.
 pub fn outside(
     center: DVec3,
     radii: DVec3,
     rotation: DMat3,
     eye: DVec3,
     vertex: DVec3,
-) -> Result<Solutions, NotAvailable> {
+) -> Solutions {
     let size = radii.max_element();
     let local = |point: DVec3| rotation.transpose() * (point - center) / size;
     let path = Path {
@@ -39,19 +42,17 @@ pub fn outside(
         vertex: local(vertex),
     };
     let Some(start) = path.start() else {
-        return Ok(Solutions::none(VertexClass::Hidden));
+        return Solutions::none(VertexClass::Hidden);
     };
     let unit = path.minimize(start);
-    if path.residual(unit) > RESIDUAL {
-        return Err(NotAvailable(format!(
-            "no convergence on an ellipsoid for the vertex at {vertex}"
-        )));
+    let nearest = path.legs(unit)[0].1.min(path.legs(unit)[1].1);
+    if path.residual(unit) > RESIDUAL + ROUNDING / nearest {
+        return Solutions::none(VertexClass::Unknown);
     }
-    let points = vec![center + rotation * (unit * radii)];
-    Ok(Solutions {
+    Solutions {
         class: VertexClass::Reflected,
-        points,
-    })
+        points: vec![center + rotation * (unit * radii)],
+    }
 }
 
 /// Ways from an eye over a point of the ellipsoid to a vertex, in the ellipsoid's axes, its
@@ -73,7 +74,7 @@ struct Local {
 
 impl Path {
     /// The unit vector towards the point of the straight way that comes closest to the centre,
-    /// measured so that the body is a ball; `None` if the way meets the body.
+    /// measured so that the body is a ball; `None` if the way meets or touches the body.
     fn start(&self) -> Option<DVec3> {
         let (eye, vertex) = (self.eye / self.radii, self.vertex / self.radii);
         let along = vertex - eye;
@@ -84,7 +85,7 @@ impl Path {
             0.0
         };
         let nearest = eye + share * along;
-        (nearest.length_squared() > 1.0).then(|| nearest.normalize())
+        (nearest.length() > 1.0 + TOUCHING).then(|| nearest.normalize())
     }
 
     /// Unit vectors from a point towards eye and vertex, and the distances.

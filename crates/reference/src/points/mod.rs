@@ -2,24 +2,29 @@
 //!
 //! A point `R` of a mirror reflects vertex `V` to eye `O` where the bisector of the directions
 //! to both is the normal `N` of the reflecting side, and both lie in front: `N·(O−R) > 0` and
-//! `N·(V−R) > 0`. Occlusion plays no part here: neither by objects, nor by the mirror itself
-//! (the outside of a bowl may well hide its inside).
+//! `N·(V−R) > 0`. Objects do not occlude here, nor does the mirror itself (the outside of a bowl
+//! may well hide its inside), but for the eye's view of a torus or a saddle, whose front may hide
+//! its front.
 //!
 //! - sphere and bowl: the roots of Alhazen's quartic, all of them ([`mod@sphere`]);
 //! - plane: the mirror image;
 //! - ellipsoid: the minimum of a convex function ([`mod@ellipsoid`]);
+//! - torus and saddle: all stationary points, by dividing the surface until each part is settled
+//!   (`stationary`);
 //! - mesh: not available, for its interpolated normals belong to no surface.
 //!
 //! Regions are those of Estalella et al., "Accurate Interactive Specular Reflections on Curved
 //! Objects", VMV 2005, §6.1. World space throughout.
 
 pub mod ellipsoid;
+mod patch;
 mod quartic;
 pub mod sphere;
+mod stationary;
 
 use catoptric_frame::{Frame, Status, TrueVertex, VertexClass};
 use catoptric_scene::{Scene, Shape, View};
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 
 use crate::error::NotAvailable;
@@ -61,8 +66,8 @@ impl Solutions {
 /// All points of the mirror at which `eye` sees `vertex` reflected, occlusion-free.
 ///
 /// # Errors
-/// For mesh mirrors, and for an ellipsoid if the iteration does not get below its residual
-/// (an eye or a vertex on the surface).
+/// For mesh mirrors. Of a single vertex that cannot be decided, the class is
+/// [`VertexClass::Unknown`].
 pub fn reflection_points(
     shape: &Shape,
     eye: DVec3,
@@ -87,7 +92,7 @@ pub fn reflection_points(
             center,
             radii,
             rotation,
-        } => ellipsoid::outside(*center, *radii, *rotation, eye, vertex),
+        } => Ok(ellipsoid::outside(*center, *radii, *rotation, eye, vertex)),
         Shape::Plane {
             center,
             normal,
@@ -109,7 +114,58 @@ pub fn reflection_points(
                 offset.dot(right).abs() <= size.x / 2.0 && offset.dot(*up).abs() <= size.y / 2.0
             }))
         }
+        Shape::Torus {
+            center,
+            axis,
+            major,
+            minor,
+        } => {
+            let patch = patch::Torus {
+                center: *center,
+                axis: *axis,
+                major: *major,
+                minor: *minor,
+            };
+            let solutions = stationary::reflection_points(&patch, eye, vertex, seen(shape, eye));
+            Ok(match solutions.class {
+                VertexClass::Unreflected => Solutions::none(VertexClass::Hidden),
+                _ => solutions,
+            })
+        }
+        Shape::Saddle {
+            center,
+            normal,
+            up,
+            size,
+            curvature,
+        } => {
+            let patch = patch::Saddle {
+                center: *center,
+                frame: DMat3::from_cols(up.cross(*normal), *up, *normal),
+                half: *size / 2.0,
+                curvature: *curvature,
+            };
+            Ok(stationary::reflection_points(
+                &patch,
+                eye,
+                vertex,
+                seen(shape, eye),
+            ))
+        }
         Shape::Mesh(_) => Err(mesh()),
+    }
+}
+
+/// Whether a mirror does not itself hide a point of its surface from the eye.
+fn seen(shape: &Shape, eye: DVec3) -> impl Fn(DVec3) -> bool {
+    /// Share of a mirror's extent by which something hides before it counts as before.
+    const BEFORE: f64 = 1e-6;
+    let (low, high) = shape.bounds();
+    let margin = BEFORE * (high - low).length();
+    move |point| {
+        let offset = point - eye;
+        let first = shape.intersect(eye, offset.normalize(), 0.0);
+        first.is_none_or(|hit| hit.t > offset.length() - margin)
     }
 }
 

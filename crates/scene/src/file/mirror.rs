@@ -11,7 +11,7 @@ use crate::mesh::{Material, Mesh, Paint};
 use crate::{Mirror, SceneError, Shape};
 
 /// Shapes known exactly. Every other primitive makes a mesh mirror.
-const EXACT: [&str; 4] = ["sphere", "ellipsoid", "plane", "bowl"];
+const EXACT: [&str; 6] = ["sphere", "ellipsoid", "plane", "bowl", "torus", "saddle"];
 
 /// Reads a mirror, with its mesh if it is one.
 pub(super) fn mirror(table: &Table<'_>, origin: &Origin<'_>) -> Result<Mirror, SceneError> {
@@ -32,9 +32,8 @@ pub(super) fn mirror(table: &Table<'_>, origin: &Origin<'_>) -> Result<Mirror, S
         (None, Some("ellipsoid")) => ellipsoid(table)?,
         (None, Some("plane")) => plane(table)?,
         (None, Some("bowl")) => bowl(table)?,
-        (None, Some("torus")) => {
-            return Err(table.error("shape", "`torus` is not yet supported for a mirror"));
-        }
+        (None, Some("torus")) => torus(table)?,
+        (None, Some("saddle")) => saddle(table)?,
         (None, Some(shape)) => {
             let Some(surface) = primitive(table, shape)? else {
                 let meshes = PRIMITIVES.into_iter().filter(|name| !EXACT.contains(name));
@@ -88,8 +87,8 @@ fn ellipsoid(table: &Table<'_>) -> Result<Shape, SceneError> {
     })
 }
 
-fn plane(table: &Table<'_>) -> Result<Shape, SceneError> {
-    let center = center(table)?;
+/// `normal` and `up` (made perpendicular to it), and `size`.
+fn oriented(table: &Table<'_>) -> Result<(DVec3, DVec3, DVec2), SceneError> {
     let normal = table.direction("normal")?;
     let up = table.direction("up")?.unwrap_or(DVec3::Y);
     let size = table.numbers::<2>("size")?;
@@ -103,11 +102,54 @@ fn plane(table: &Table<'_>) -> Result<Shape, SceneError> {
     if up.length() < 1e-6 {
         return Err(table.error("up", "must not be parallel to `normal`"));
     }
+    Ok((normal, up.normalize(), size))
+}
+
+fn plane(table: &Table<'_>) -> Result<Shape, SceneError> {
+    let center = center(table)?;
+    let (normal, up, size) = oriented(table)?;
     Ok(Shape::Plane {
         center,
         normal,
-        up: up.normalize(),
+        up,
         size,
+    })
+}
+
+fn saddle(table: &Table<'_>) -> Result<Shape, SceneError> {
+    let center = center(table)?;
+    let curvature = table.numbers::<2>("curvature")?;
+    let (normal, up, size) = oriented(table)?;
+    let curvature = DVec2::from(table.required("curvature", curvature)?);
+    if curvature.x * curvature.y >= 0.0 {
+        let message = "must be two numbers of opposite signs: along the width and along `up`";
+        return Err(table.error("curvature", message));
+    }
+    Ok(Shape::Saddle {
+        center,
+        normal,
+        up,
+        size,
+        curvature,
+    })
+}
+
+fn torus(table: &Table<'_>) -> Result<Shape, SceneError> {
+    let center = center(table)?;
+    let axis = table.direction("axis")?.unwrap_or(DVec3::Y);
+    let major = table.positive("major")?;
+    let minor = table.positive("minor")?;
+    table.finish()?;
+    let major = table.required("major", major)?;
+    let minor = table.required("minor", minor)?;
+    if minor >= major {
+        return Err(table.error("minor", "must be smaller than `major`"));
+    }
+    Ok(Shape::Torus {
+        center,
+        axis,
+        major,
+        minor,
     })
 }
 

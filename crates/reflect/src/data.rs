@@ -2,7 +2,7 @@
 
 use catoptric_scene::{Background, Mesh, Paint, Scene, Shape, View};
 use encase::ShaderType;
-use glam::{DVec3, UVec2, UVec3, Vec2, Vec3};
+use glam::{DVec2, DVec3, UVec2, UVec3, Vec2, Vec3};
 
 /// Twin of `shared/view.wesl`.
 #[derive(Clone, Copy, Debug, ShaderType)]
@@ -98,7 +98,9 @@ pub(crate) struct MirrorUniform {
     pub axis_x: Vec3,
     pub cos_half_angle: f32,
     pub axis_y: Vec3,
+    pub curvature_x: f32,
     pub axis_z: Vec3,
+    pub curvature_y: f32,
     pub radii: Vec3,
 }
 
@@ -106,6 +108,7 @@ impl MirrorUniform {
     /// `eye` in world space.
     pub(crate) fn new(shape: &Shape, id: u32, eye: DVec3) -> Self {
         let mut axes = [DVec3::X, DVec3::Y, DVec3::Z];
+        let mut curvature = DVec2::ZERO;
         let (kind, radii, cos_half_angle) = match shape {
             Shape::Sphere { radius, .. } => (0, DVec3::splat(*radius), 0.0),
             Shape::Ellipsoid {
@@ -130,6 +133,24 @@ impl MirrorUniform {
                 axes = [up.cross(*normal), *up, *normal];
                 (2, DVec3::new(size.x / 2.0, size.y / 2.0, 1.0), 0.0)
             }
+            Shape::Torus {
+                axis, major, minor, ..
+            } => {
+                let x = axis.any_orthonormal_vector();
+                axes = [x, axis.cross(x), *axis];
+                (3, DVec3::new(*major, *minor, 1.0), 0.0)
+            }
+            Shape::Saddle {
+                normal,
+                up,
+                size,
+                curvature: bend,
+                ..
+            } => {
+                axes = [up.cross(*normal), *up, *normal];
+                curvature = *bend;
+                (4, DVec3::new(size.x / 2.0, size.y / 2.0, 1.0), 0.0)
+            }
             Shape::Mesh(_) => (0, DVec3::ONE, 0.0),
         };
         let center = shape.center();
@@ -141,7 +162,9 @@ impl MirrorUniform {
             axis_x: axes[0].as_vec3(),
             cos_half_angle: cos_half_angle as f32,
             axis_y: axes[1].as_vec3(),
+            curvature_x: curvature.x as f32,
             axis_z: axes[2].as_vec3(),
+            curvature_y: curvature.y as f32,
             radii: radii.as_vec3(),
         }
     }
@@ -430,7 +453,9 @@ mod tests {
                 axis_x,
                 cos_half_angle,
                 axis_y,
+                curvature_x,
                 axis_z,
+                curvature_y,
                 radii
             ]
         );

@@ -92,3 +92,65 @@ impl GBuffer {
         });
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::{DVec2, DVec3};
+
+    use crate::testing::{gpu_or_skip, scene};
+
+    const SIZE: [u32; 2] = [200, 150];
+
+    /// 99th percentile of the angle between the directions reflected by the shader's hit and by
+    /// the exact one: what single precision costs, far below the width of a pixel.
+    const ANGLE_P99_DEG: f64 = 0.01;
+
+    /// Share of pixels that may be seen as mirror by one and not by the other: rays that graze it.
+    const GRAZING: f64 = 0.002;
+
+    #[test]
+    fn exact_hits_are_those_of_the_surface() {
+        let Some(gpu) = gpu_or_skip() else { return };
+        for name in ["ellipsoid", "bowl", "torus", "saddle"] {
+            let scene = scene(name);
+            let spec = crate::parse("linear").expect("a technique");
+            let mut prepared = crate::prepare(&gpu, &spec, &scene, SIZE).expect("fits");
+            let primary = prepared
+                .render()
+                .expect("a frame")
+                .frame
+                .primary
+                .expect("layers");
+            let (view, shape) = (scene.camera.view(SIZE), &scene.mirrors[0].shape);
+            let (mut angles, mut unlike) = (Vec::new(), 0);
+            for (index, id) in primary.id.pixels().iter().enumerate() {
+                let (x, y) = (index as u32 % SIZE[0], index as u32 / SIZE[0]);
+                let dir = view.ray(DVec2::new(f64::from(x), f64::from(y)) + 0.5);
+                let hit = shape.intersect(view.eye, dir, 0.0);
+                if *id != scene.mirror_id(0) {
+                    // An object may hide it; the background does not.
+                    unlike += u32::from(*id == 0 && hit.is_some());
+                    continue;
+                }
+                let Some(hit) = hit else {
+                    unlike += 1;
+                    continue;
+                };
+                let reflected = |normal: DVec3| dir - 2.0 * dir.dot(normal) * normal;
+                let drawn = primary.normal.at(x, y).as_dvec3().normalize();
+                let angle = reflected(hit.normal).angle_between(reflected(drawn));
+                angles.push(angle.to_degrees());
+            }
+            angles.sort_by(f64::total_cmp);
+            let p99 = angles[angles.len() * 99 / 100];
+            println!(
+                "{name}: {} pixels, p99 {p99:e}°, {unlike} unlike",
+                angles.len()
+            );
+            assert!(angles.len() > 2000, "{name}: {} pixels", angles.len());
+            assert!(p99 < ANGLE_P99_DEG, "{name}: {p99}°");
+            let share = f64::from(unlike) / angles.len() as f64;
+            assert!(share <= GRAZING, "{name}: {unlike} pixels unlike");
+        }
+    }
+}

@@ -137,8 +137,8 @@ impl Path {
         }
     }
 
-    /// Newton steps, shortened until the way gets shorter; near the minimum, where lengths no
-    /// longer tell, until the gradient does.
+    /// Newton steps, shortened until the way gets shorter; where rounding no longer tells lengths
+    /// apart, until the gradient does.
     fn minimize(&self, start: DVec3) -> DVec3 {
         let mut unit = start;
         let mut here = self.at(unit);
@@ -152,8 +152,9 @@ impl Path {
                 let there = self.at(next);
                 let shorter = there.length <= here.length + 1e-4 * share * descent;
                 let flatter = there.gradient.length() < here.gradient.length();
-                let close = here.gradient.length() < 1e-6;
-                if (close && flatter) || (!close && shorter) {
+                let alike = (there.length - here.length).abs() <= 8.0 * f64::EPSILON * here.length;
+                let better = if alike { flatter } else { shorter };
+                if better {
                     break Some((next, there));
                 }
                 share /= 2.0;

@@ -15,7 +15,7 @@ pub mod results;
 pub use error::FrameError;
 pub use image::Image;
 pub use png::{write_png, write_png_rgb8};
-pub use results::{Triangles, TrueVertex, VertexClass, VertexResult, VertexState, Work};
+pub use results::{Traced, Triangles, TrueVertex, VertexClass, VertexResult, VertexState, Work};
 
 use glam::Vec3;
 

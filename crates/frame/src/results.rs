@@ -3,6 +3,8 @@
 use glam::{DVec2, DVec3, Vec2};
 use serde::{Deserialize, Serialize};
 
+use crate::Image;
+
 /// A search's answer for one (object vertex, mirror) pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VertexResult {
@@ -77,6 +79,29 @@ pub struct Triangles {
     pub by_level: Vec<u64>,
     /// Still above the threshold at the level limit.
     pub unfinished: u64,
+}
+
+/// What following the reflected rays of one frame took, pixel by pixel; all 0 where no mirror's
+/// front is seen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Traced {
+    /// Samples of distance maps.
+    pub samples: Image<u32>,
+    /// Steps skipped by an acceleration structure.
+    pub skips: Image<u32>,
+    /// Rays followed: 1, and one more for each mirror that a ray met.
+    pub rays: Image<u32>,
+    /// Pixels resolved in each map of their mirror, in the order in which the maps are tried.
+    pub resolved_by: Vec<u64>,
+    /// Pixels that no map resolved, whatever was put in their place.
+    pub unresolved: u64,
+}
+
+impl Traced {
+    /// Number of mirror pixels.
+    pub fn pixels(&self) -> u64 {
+        self.resolved_by.iter().sum::<u64>() + self.unresolved
+    }
 }
 
 /// Work counters, device-independent: means per searched vertex or per mirror pixel.

@@ -54,7 +54,7 @@ impl ViewUniform {
             up: view.up.as_vec3(),
             tan_y: view.tan.y as f32,
             forward: view.forward.as_vec3(),
-            depth_range: depth_range(scene),
+            depth_range: diagonal(scene),
             size: UVec2::from_array(view.size),
             background_kind,
             under: 0,
@@ -65,8 +65,9 @@ impl ViewUniform {
     }
 }
 
-/// No vertex is farther from a mirror point: the diagonal of the box around everything.
-fn depth_range(scene: &Scene) -> f32 {
+/// No vertex is farther from a mirror point: the diagonal of the box around everything, and a
+/// hundredth of it.
+pub(crate) fn diagonal(scene: &Scene) -> f32 {
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for mirror in &scene.mirrors {
         let (a, b) = mirror.shape.bounds();

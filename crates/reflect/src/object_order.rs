@@ -97,6 +97,7 @@ impl Technique for ObjectOrder {
             t_junctions: (self.refine).t_junctions(gpu, &self.stage, self.search.as_ref()),
             work: efforts.mean(),
             notes: self.refine.notes(),
+            traced: None,
         }
     }
 }

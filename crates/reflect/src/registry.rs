@@ -310,6 +310,121 @@ const ADAPTIVE: &[OptionInfo] = &[
     },
 ];
 
+const fn whole(
+    name: &'static str,
+    default: u32,
+    range: [u32; 2],
+    what: &'static str,
+) -> OptionInfo {
+    let values = Values::Whole { default, range };
+    OptionInfo { name, values, what }
+}
+
+const fn number(
+    name: &'static str,
+    default: f64,
+    range: [f64; 2],
+    what: &'static str,
+) -> OptionInfo {
+    let values = Values::Number { default, range };
+    OptionInfo { name, values, what }
+}
+
+/// Options of techniques that look into cube maps of the scene.
+const CUBE_MAPS: &[OptionInfo] = &[
+    words(
+        "size",
+        &["256", "32", "64", "128", "512", "1024"],
+        "texels a side of a cube face",
+    ),
+    words(
+        "update",
+        &["static", "frame"],
+        "whether the maps are drawn once or in every frame",
+    ),
+];
+
+const CUBEMAP_TRACE: &[OptionInfo] = &[
+    whole("objects", 2, [1, 8], "cube maps of each mirror"),
+    words(
+        "placement",
+        &["auto", "random"],
+        "where the maps are taken from: of random candidates those that resolve the most pixels, or just as many as are needed",
+    ),
+    words(
+        "criterion",
+        &["analytic", "distance", "both", "switch"],
+        "what counts as a hit: a sign change of the distance to the map, a small one, a small one or else the first sign change, or either by how much the ray turns",
+    ),
+    words(
+        "accept",
+        &["any", "continuous"],
+        "which sign changes count: any, as published, or after halving the step those where the map is continuous",
+    ),
+    words(
+        "sampling",
+        &["step", "angle", "texel"],
+        "where a ray is looked at: at even steps, at even angles, or once in each texel",
+    ),
+    words(
+        "pyramid",
+        &["off", "published", "sound"],
+        "skipping by least and greatest distances: none, by those at a cell's ends, or by the ray's nearest point",
+    ),
+    words(
+        "stage",
+        &["fragment", "compute"],
+        "one fragment a ray, or 32 lanes a ray that test the cells of a level at once",
+    ),
+    number(
+        "length",
+        2.0,
+        [0.01, 100.0],
+        "length of a ray, in diagonals of the scene",
+    ),
+    number(
+        "step",
+        0.001,
+        [0.000_01, 0.5],
+        "step, as a share of the ray's length (or of its angle)",
+    ),
+    number(
+        "limit",
+        1.5,
+        [0.0, 1000.0],
+        "largest distance that counts as a hit, in steps (criterion=distance)",
+    ),
+    whole(
+        "from",
+        2,
+        [0, 10],
+        "coarsest level of the pyramid; level k has 2^k cells a side",
+    ),
+    whole("to", 6, [0, 10], "finest level of the pyramid"),
+    whole(
+        "bounces",
+        1,
+        [1, 16],
+        "rays followed from a pixel; more than one shows mirrors in mirrors",
+    ),
+    number(
+        "bias",
+        0.0,
+        [0.0, 0.5],
+        "share of a second ray's length at which it starts (bounces), 0: by the width of a texel, for all rays",
+    ),
+    words(
+        "restart",
+        &["bias", "clear"],
+        "how a ray gets off the mirror (bounces): by the bias, or no hit counts before a sample that is clear of the surface",
+    ),
+    words(
+        "unresolved",
+        &["mark", "environment", "background", "neighbours", "best"],
+        "what a pixel shows that no map resolves",
+    ),
+];
+
 fn any_scene(_: &Options, _: &Scene) -> Option<String> {
     None
 }
@@ -417,12 +532,15 @@ pub const TECHNIQUES: &[TechniqueInfo] = &[
         Family::Refinement,
         "this project",
     ),
-    later(
-        "environment-map",
-        "one cube map from the mirror's centre",
-        Family::ImageOrder,
-        "baseline",
-    ),
+    TechniqueInfo {
+        name: "environment-map",
+        what: "one cube map from each mirror's centre, looked up in the reflected direction",
+        family: Family::ImageOrder,
+        paper: "baseline",
+        options: &[CUBE_MAPS, EVERY],
+        maker: Maker::ImageOrder(image_order::environment_map::make),
+        objection: any_scene,
+    },
     TechniqueInfo {
         name: "planar",
         what: "the scene from the mirrored eye, flat mirrors only",
@@ -432,12 +550,15 @@ pub const TECHNIQUES: &[TechniqueInfo] = &[
         maker: Maker::ImageOrder(image_order::planar::make),
         objection: image_order::planar::objection,
     },
-    later(
-        "cubemap-trace",
-        "rays marched through cube maps of distance",
-        Family::ImageOrder,
-        "Číž 2017",
-    ),
+    TechniqueInfo {
+        name: "cubemap-trace",
+        what: "reflected rays marched through a few cube maps of distance",
+        family: Family::ImageOrder,
+        paper: "Číž 2017",
+        options: &[CUBEMAP_TRACE, CUBE_MAPS, EVERY],
+        maker: Maker::ImageOrder(image_order::cubemap_trace::make),
+        objection: image_order::cubemap_trace::objection,
+    },
     TechniqueInfo {
         name: "ray-trace",
         what: "the control: the reference's rays on the GPU",

@@ -30,6 +30,8 @@ pub(crate) enum Slot {
     Textures,
     /// A [`FLOAT4`] image that shaders write; compute stage only.
     Image,
+    /// Layers of two floats that shaders write; compute stage only.
+    WriteArray,
 }
 
 /// A bind group layout with bindings 0, 1, … as listed; all stages see them, except that only
@@ -50,7 +52,7 @@ pub(crate) fn layout(gpu: &Gpu, label: &str, slots: &[Slot]) -> wgpu::BindGroupL
         .map(|(binding, slot)| wgpu::BindGroupLayoutEntry {
             binding,
             visibility: match slot {
-                Slot::Write | Slot::Image => wgpu::ShaderStages::COMPUTE,
+                Slot::Write | Slot::Image | Slot::WriteArray => wgpu::ShaderStages::COMPUTE,
                 _ => wgpu::ShaderStages::all(),
             },
             ty: match slot {
@@ -63,6 +65,11 @@ pub(crate) fn layout(gpu: &Gpu, label: &str, slots: &[Slot]) -> wgpu::BindGroupL
                     access: wgpu::StorageTextureAccess::WriteOnly,
                     format: FLOAT4,
                     view_dimension: wgpu::TextureViewDimension::D2,
+                },
+                Slot::WriteArray => wgpu::BindingType::StorageTexture {
+                    access: wgpu::StorageTextureAccess::WriteOnly,
+                    format: wgpu::TextureFormat::Rg32Float,
+                    view_dimension: wgpu::TextureViewDimension::D2Array,
                 },
             },
             count: None,
@@ -221,6 +228,31 @@ pub(crate) fn level_view(texture: &wgpu::Texture, level: u32) -> wgpu::TextureVi
     })
 }
 
+/// Square layers `[side, layers]` to read by `textureLoad`, and for whatever `usage` says.
+pub(crate) fn texture_array(
+    gpu: &Gpu,
+    label: &str,
+    [side, layers]: [u32; 2],
+    levels: u32,
+    format: wgpu::TextureFormat,
+    usage: wgpu::TextureUsages,
+) -> wgpu::Texture {
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d {
+            width: side,
+            height: side,
+            depth_or_array_layers: layers,
+        },
+        mip_level_count: levels,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: usage | wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    })
+}
+
 /// The whole of a texture.
 pub(crate) fn view(texture: &wgpu::Texture) -> wgpu::TextureView {
     texture.create_view(&wgpu::TextureViewDescriptor::default())
@@ -286,23 +318,56 @@ pub(crate) fn raster(
     layouts: &[Option<&wgpu::BindGroupLayout>],
     buffers: &[Option<wgpu::VertexBufferLayout<'_>>],
 ) -> wgpu::RenderPipeline {
-    let color = Some(wgpu::ColorTargetState {
-        format: FLOAT4,
-        blend: None,
-        write_mask: wgpu::ColorWrites::ALL,
-    });
+    let entries = RasterEntries {
+        module,
+        vertex: "vertex",
+        fragment,
+    };
+    let formats = vec![FLOAT4; targets.colors];
+    raster_to(gpu, entries, &formats, targets.depth, layouts, buffers)
+}
+
+/// The two ends of a raster pipeline.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RasterEntries<'a> {
+    pub module: &'a wgpu::ShaderModule,
+    pub vertex: &'a str,
+    pub fragment: &'a str,
+}
+
+/// A raster pipeline to colour targets of any formats; `depth` as in [`RasterTargets`].
+pub(crate) fn raster_to(
+    gpu: &Gpu,
+    RasterEntries {
+        module,
+        vertex,
+        fragment,
+    }: RasterEntries<'_>,
+    formats: &[wgpu::TextureFormat],
+    depth: bool,
+    layouts: &[Option<&wgpu::BindGroupLayout>],
+    buffers: &[Option<wgpu::VertexBufferLayout<'_>>],
+) -> wgpu::RenderPipeline {
+    let color = |format: &wgpu::TextureFormat| {
+        Some(wgpu::ColorTargetState {
+            format: *format,
+            blend: None,
+            write_mask: wgpu::ColorWrites::ALL,
+        })
+    };
+    let colors: Vec<_> = formats.iter().map(color).collect();
     gpu.device
         .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(fragment),
             layout: Some(&pipeline_layout(gpu, layouts)),
             vertex: wgpu::VertexState {
                 module,
-                entry_point: Some("vertex"),
+                entry_point: Some(vertex),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
                 buffers,
             },
             primitive: wgpu::PrimitiveState::default(),
-            depth_stencil: targets.depth.then(|| wgpu::DepthStencilState {
+            depth_stencil: depth.then(|| wgpu::DepthStencilState {
                 format: DEPTH,
                 depth_write_enabled: Some(true),
                 depth_compare: Some(wgpu::CompareFunction::Greater),
@@ -314,7 +379,7 @@ pub(crate) fn raster(
                 module,
                 entry_point: Some(fragment),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
-                targets: &vec![color; targets.colors],
+                targets: &colors,
             }),
             multiview_mask: None,
             cache: None,

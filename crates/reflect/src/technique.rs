@@ -1,6 +1,6 @@
 //! What a technique is to the rest: it records frames and hands over what it drew and counted.
 
-use catoptric_frame::{Frame, Triangles, VertexResult, Work};
+use catoptric_frame::{Frame, Traced, Triangles, VertexResult, Work};
 use catoptric_scene::Scene;
 
 use crate::ReflectError;
@@ -59,6 +59,9 @@ pub struct Output {
     pub work: Work,
     /// What else the reader of these numbers should know, in sentences.
     pub notes: Vec<String>,
+    /// Pixel by pixel, what following the reflected rays took; `None` for techniques that do not
+    /// go along them step by step.
+    pub traced: Option<Traced>,
 }
 
 /// A technique that stands ready to render one scene.

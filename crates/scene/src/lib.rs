@@ -50,6 +50,7 @@ pub use load::{LoadOptions, open};
 pub use mesh::{Material, Mesh, Paint, Texture};
 pub use mirror::{Mirror, Shape, SurfaceHit};
 pub use motion::{CameraPath, Motion, Move, Subject};
+pub use random::Random;
 
 use glam::Vec3;
 

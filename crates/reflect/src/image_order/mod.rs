@@ -1,10 +1,13 @@
 //! Image order: for each mirror pixel, what its reflected ray meets. One file a technique, named
 //! as its shader: mirror G-buffer → technique → composite.
 
+pub(crate) mod cubemap_trace;
+mod cubemaps;
+pub(crate) mod environment_map;
 pub(crate) mod planar;
 pub(crate) mod ray_trace;
 
-use catoptric_frame::Work;
+use catoptric_frame::{Traced, Work};
 use catoptric_scene::Scene;
 
 use crate::ReflectError;
@@ -28,6 +31,12 @@ pub(crate) trait ImageOrder {
 
     /// Work of the last frame: means per mirror pixel.
     fn work(&self, gpu: &Gpu, stage: &Stage) -> Work;
+
+    /// Pixel by pixel, what the last frame's rays took; `None` where none are followed step by
+    /// step.
+    fn traced(&self, _: &Gpu, _: &Stage) -> Option<Traced> {
+        None
+    }
 }
 
 /// Makes a technique by its name.
@@ -98,6 +107,7 @@ impl Technique for Whole {
             t_junctions: None,
             work: self.technique.work(gpu, &self.stage),
             notes: Vec::new(),
+            traced: self.technique.traced(gpu, &self.stage),
         }
     }
 }

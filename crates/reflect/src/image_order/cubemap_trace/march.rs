@@ -1,0 +1,157 @@
+//! Rays followed by fragment shaders: one fragment a mirror pixel (Číž 2017, Alg. 1, 2 and 4).
+
+use catoptric_frame::{Image, Traced};
+
+use crate::ReflectError;
+use crate::gpu::Gpu;
+use crate::recorder::{Begin, Recorder};
+use crate::resources::{RasterTargets, module, raster};
+use crate::spec::Options;
+use crate::stage::Stage;
+use crate::technique::Variant;
+
+/// The pass `trace`.
+pub(crate) struct March {
+    color: wgpu::RenderPipeline,
+    layers: wgpu::RenderPipeline,
+    effort: wgpu::RenderPipeline,
+}
+
+/// What options turn on in the shader.
+pub(crate) fn features(options: &Options) -> Vec<&'static str> {
+    let mut features = Vec::new();
+    let mut on = |feature, condition| {
+        if condition {
+            features.push(feature);
+        }
+    };
+    on("distance", options.is("criterion", "distance"));
+    on("both", options.is("criterion", "both"));
+    on("turning", options.is("criterion", "switch"));
+    on("angle", options.is("sampling", "angle"));
+    on("texel", options.is("sampling", "texel"));
+    on("pyramid", !options.is("pyramid", "off"));
+    on("sound", options.is("pyramid", "sound"));
+    on("continuous", options.is("accept", "continuous"));
+    on("bounce", options.whole("bounces") > 1);
+    on("clear", options.is("restart", "clear"));
+    on("best", options.is("unresolved", "best"));
+    on("background", options.is("unresolved", "background"));
+    on("environment", options.is("unresolved", "environment"));
+    on("later", options.is("unresolved", "neighbours"));
+    features
+}
+
+impl March {
+    /// `own_layout`: group 3.
+    pub(crate) fn new(
+        gpu: &Gpu,
+        options: &Options,
+        stage: &Stage,
+        own_layout: &wgpu::BindGroupLayout,
+    ) -> Result<Self, ReflectError> {
+        Self::with(gpu, &features(options), stage, own_layout)
+    }
+
+    /// With features of the shader named one by one.
+    pub(crate) fn with(
+        gpu: &Gpu,
+        features: &[&str],
+        stage: &Stage,
+        own_layout: &wgpu::BindGroupLayout,
+    ) -> Result<Self, ReflectError> {
+        let module = module(gpu, "cubemap_trace", features)?;
+        let layouts = [
+            Some(&stage.world.view_layout),
+            Some(&stage.gbuffer.mirror_layout),
+            None,
+            Some(own_layout),
+        ];
+        let pipeline = |entry, colors| {
+            let targets = RasterTargets {
+                colors,
+                depth: false,
+            };
+            raster(gpu, &module, entry, targets, &layouts, &[])
+        };
+        Ok(Self {
+            color: pipeline("color", 1),
+            layers: pipeline("layers", 2),
+            effort: pipeline("effort", 1),
+        })
+    }
+
+    /// Traces into colour and, with all layers, position; `groups` are those of the mirrors' maps.
+    pub(crate) fn record(
+        &self,
+        frame: &mut Recorder<'_>,
+        stage: &Stage,
+        variant: Variant,
+        groups: &[&wgpu::BindGroup],
+        targets: [&wgpu::TextureView; 2],
+    ) {
+        match variant {
+            Variant::AllLayers => {
+                draw(frame, "trace", stage, groups, &self.layers, &targets);
+            }
+            Variant::Color => {
+                draw(frame, "trace", stage, groups, &self.color, &targets[..1]);
+            }
+        }
+    }
+
+    /// Traces once more for what it took: samples, skips, resolving map, rays.
+    pub(crate) fn record_effort(
+        &self,
+        frame: &mut Recorder<'_>,
+        stage: &Stage,
+        groups: &[&wgpu::BindGroup],
+        target: &wgpu::TextureView,
+    ) {
+        draw(frame, "effort", stage, groups, &self.effort, &[target]);
+    }
+}
+
+fn draw(
+    frame: &mut Recorder<'_>,
+    name: &str,
+    stage: &Stage,
+    groups: &[&wgpu::BindGroup],
+    pipeline: &wgpu::RenderPipeline,
+    targets: &[&wgpu::TextureView],
+) {
+    let mut begin = Begin::Clear;
+    for (own, mirror) in groups.iter().zip(&stage.gbuffer.mirror_groups) {
+        frame.render(name, targets, begin, None, |pass| {
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(0, &stage.world.view_group, &[]);
+            pass.set_bind_group(1, mirror, &[]);
+            pass.set_bind_group(3, *own, &[]);
+            pass.draw(0..3, 0..1);
+        });
+        begin = Begin::Keep;
+    }
+}
+
+/// What the texels of an effort image say; a pixel has been traced if it has rays.
+pub(crate) fn traced(size: [u32; 2], texels: &[[f32; 4]], maps: usize) -> Traced {
+    let image = |channel: usize| {
+        let values = texels.iter().map(|texel| texel[channel] as u32);
+        Image::from_vec(size, values.collect())
+    };
+    let mut resolved_by = vec![0; maps];
+    let mut unresolved = 0;
+    for texel in texels.iter().filter(|texel| texel[3] > 0.0) {
+        match texel[2] as usize {
+            0 => unresolved += 1,
+            map => resolved_by[map - 1] += 1,
+        }
+    }
+    Traced {
+        samples: image(0),
+        skips: image(1),
+        rays: image(3),
+        resolved_by,
+        unresolved,
+    }
+}

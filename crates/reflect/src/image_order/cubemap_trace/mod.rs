@@ -1,0 +1,261 @@
+//! Cubemap tracing (Číž 2017, chapter 3): the reflected ray of each mirror pixel is marched through
+//! the distances that a few cube maps hold of the scene, and shows the colour found there.
+//!
+//! Each mirror has maps of its own (`placement`). `march` is the fragment-shader version with its
+//! criteria, samplings and skipping (`pyramid`); `lanes` the version for compute shaders; `fill`
+//! what becomes of pixels that no map resolves.
+
+mod fill;
+mod lanes;
+mod march;
+mod placement;
+mod pyramid;
+
+use catoptric_frame::{Traced, Work};
+use catoptric_scene::Scene;
+use encase::ShaderType;
+
+use self::fill::Fill;
+use self::lanes::Lanes;
+use self::march::March;
+use self::pyramid::Pyramid;
+use super::ImageOrder;
+use super::cubemaps::{CubeMaps, Wanted, array_view, draw_now, maps_layout};
+use crate::ReflectError;
+use crate::data::diagonal;
+use crate::gpu::Gpu;
+use crate::recorder::Recorder;
+use crate::resources::{FLOAT4, Slot, group, target, uniform, view};
+use crate::spec::Options;
+use crate::stage::Stage;
+use crate::technique::Variant;
+
+/// Twin of `Trace` in `shared/rays.wesl`.
+#[derive(Clone, Copy, Debug, ShaderType)]
+pub(crate) struct TraceUniform {
+    pub length: f32,
+    pub step: f32,
+    pub limit: f32,
+    pub bias: f32,
+    pub coarsest: u32,
+    pub finest: u32,
+    pub bounces: u32,
+}
+
+/// The maps of one mirror and what reads them.
+struct MirrorMaps {
+    maps: CubeMaps,
+    pyramid: Option<Pyramid>,
+    /// Group 3 of the passes that trace.
+    group: wgpu::BindGroup,
+}
+
+struct CubemapTrace {
+    /// The maps are drawn anew in every frame.
+    every_frame: bool,
+    mirrors: Vec<MirrorMaps>,
+    tracer: Tracer,
+    fill: Option<Fill>,
+    /// Samples, skips, resolving map, rays; written with all layers.
+    effort: wgpu::Texture,
+}
+
+/// Which shader stage follows the rays.
+enum Tracer {
+    Fragment(March),
+    Compute(Lanes),
+}
+
+/// Slots of group 3 behind those of the maps: `Trace`, pyramid, normals.
+const MORE: &[Slot] = &[Slot::Uniform, Slot::Textures, Slot::Textures];
+
+/// Why options do not go together.
+pub(crate) fn objection(options: &Options, _: &Scene) -> Option<String> {
+    let compute = options.is("stage", "compute");
+    let needs = |key: &str, values: &[&str]| {
+        let value = options.text(key);
+        (compute && !values.contains(&value)).then(|| {
+            format!(
+                "stage=compute has no {key}={value}, only {}",
+                values.join(", ")
+            )
+        })
+    };
+    needs("criterion", &["analytic", "distance"])
+        .or_else(|| needs("accept", &["any"]))
+        .or_else(|| needs("bounces", &["1"]))
+        .or_else(|| needs("unresolved", &["mark", "background"]))
+}
+
+fn trace_uniform(options: &Options, scene: &Scene) -> TraceUniform {
+    let length = options.number("length") as f32 * diagonal(scene);
+    let step = options.number("step") as f32;
+    let texels = options.whole("size").ilog2();
+    let finest = options.whole("to").min(texels - 1);
+    TraceUniform {
+        length,
+        step,
+        limit: options.number("limit") as f32 * step * length,
+        bias: options.number("bias") as f32,
+        coarsest: options.whole("from").min(finest),
+        finest,
+        bounces: options.whole("bounces"),
+    }
+}
+
+pub(crate) fn make(
+    gpu: &Gpu,
+    options: &Options,
+    stage: &Stage,
+) -> Result<Box<dyn ImageOrder>, ReflectError> {
+    let own_layout = maps_layout(gpu, "cubemap trace", MORE);
+    let pyramid = !options.is("pyramid", "off") || options.is("stage", "compute");
+    let trace = trace_uniform(options, &stage.world.scene);
+    let mut mirrors = Vec::new();
+    let places = placement::places(gpu, options, stage)?;
+    for (mirror, mut centers) in stage.world.scene.mirrors.iter().zip(places) {
+        let traced = centers.len();
+        if options.is("unresolved", "environment") {
+            centers.push(mirror.shape.center());
+        }
+        let wanted = Wanted {
+            size: options.whole("size"),
+            centers,
+            traced,
+            mirrors: options.whole("bounces") > 1,
+        };
+        let maps = MirrorMaps::new(gpu, pyramid, &trace, stage, wanted, &own_layout)?;
+        mirrors.push(maps);
+    }
+    let fill = (options.is("unresolved", "neighbours")).then(|| Fill::new(gpu, stage));
+    let effort = target(gpu, "effort", stage.world.size, FLOAT4);
+    let tracer = if options.is("stage", "compute") {
+        Tracer::Compute(Lanes::new(gpu, options, stage, &own_layout, &effort)?)
+    } else {
+        Tracer::Fragment(March::new(gpu, options, stage, &own_layout)?)
+    };
+    let technique = CubemapTrace {
+        every_frame: options.is("update", "frame"),
+        tracer,
+        fill: fill.transpose()?,
+        effort,
+        mirrors,
+    };
+    draw_now(gpu, |frame| technique.record_maps(frame, stage));
+    Ok(Box::new(technique))
+}
+
+impl MirrorMaps {
+    fn new(
+        gpu: &Gpu,
+        pyramid: bool,
+        trace: &TraceUniform,
+        stage: &Stage,
+        wanted: Wanted,
+        own_layout: &wgpu::BindGroupLayout,
+    ) -> Result<Self, ReflectError> {
+        let maps = CubeMaps::new(gpu, stage, wanted)?;
+        let pyramid = pyramid.then(|| Pyramid::new(gpu, &stage.world.scene, &maps));
+        let pyramid = pyramid.transpose()?;
+        let [colors, distances] = maps.views();
+        // Where there is no pyramid or normal the shader does not look; some texture must be bound.
+        let range = pyramid.as_ref().map_or(&maps.distances, |it| &it.texture);
+        let range = array_view(range);
+        let normals = array_view(maps.normals.as_ref().unwrap_or(&maps.distances));
+        let trace = uniform(gpu, trace);
+        let mut resources = maps.resources([&colors, &distances]).to_vec();
+        resources.extend([
+            trace.as_entire_binding(),
+            wgpu::BindingResource::TextureView(&range),
+            wgpu::BindingResource::TextureView(&normals),
+        ]);
+        let group = group(gpu, own_layout, &resources);
+        Ok(Self {
+            maps,
+            pyramid,
+            group,
+        })
+    }
+
+    fn record(&self, frame: &mut Recorder<'_>, stage: &Stage) {
+        self.maps.record(frame, stage);
+        if let Some(pyramid) = &self.pyramid {
+            pyramid.record(frame);
+        }
+    }
+}
+
+impl CubemapTrace {
+    fn record_maps(&self, frame: &mut Recorder<'_>, stage: &Stage) {
+        for mirror in &self.mirrors {
+            mirror.record(frame, stage);
+        }
+    }
+}
+
+impl ImageOrder for CubemapTrace {
+    /// Maps stay where they were placed; drawn in every frame, they show what moved.
+    fn update(&mut self, _: &Gpu, _: &Stage) -> Result<(), ReflectError> {
+        Ok(())
+    }
+
+    fn record(&self, frame: &mut Recorder<'_>, stage: &Stage, variant: Variant) {
+        if self.every_frame {
+            self.record_maps(frame, stage);
+        }
+        let groups: Vec<_> = self.mirrors.iter().map(|mirror| &mirror.group).collect();
+        let effort = view(&self.effort);
+        match &self.tracer {
+            Tracer::Fragment(march) => {
+                let (color, position) = match &self.fill {
+                    Some(fill) => (&fill.color, &fill.position),
+                    None => (&stage.reflections.color, &stage.reflections.position),
+                };
+                let targets = [view(color), view(position)];
+                march.record(frame, stage, variant, &groups, [&targets[0], &targets[1]]);
+                if variant == Variant::AllLayers {
+                    march.record_effort(frame, stage, &groups, &effort);
+                }
+            }
+            Tracer::Compute(lanes) => lanes.record(frame, stage, variant, &groups, &effort),
+        }
+        if let Some(fill) = &self.fill {
+            fill.record(frame, stage, variant);
+        }
+    }
+
+    fn work(&self, gpu: &Gpu, stage: &Stage) -> Work {
+        let traced = self.traced(gpu, stage).expect("rays are traced here");
+        let pixels = traced.pixels().max(1) as f64;
+        Work {
+            samples: traced
+                .samples
+                .pixels()
+                .iter()
+                .map(|n| f64::from(*n))
+                .sum::<f64>()
+                / pixels,
+            skips: traced
+                .skips
+                .pixels()
+                .iter()
+                .map(|n| f64::from(*n))
+                .sum::<f64>()
+                / pixels,
+            ..Work::default()
+        }
+    }
+
+    fn traced(&self, gpu: &Gpu, _: &Stage) -> Option<Traced> {
+        let texels = gpu.read_texture(&self.effort);
+        let maps = self
+            .mirrors
+            .first()
+            .map_or(0, |mirror| mirror.maps.traced());
+        Some(march::traced(
+            [self.effort.width(), self.effort.height()],
+            &texels,
+            maps,
+        ))
+    }
+}

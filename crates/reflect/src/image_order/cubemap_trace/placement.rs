@@ -1,0 +1,224 @@
+//! Where a mirror's cube maps are taken from (Číž 2017, section 3.8): near its surface, far from
+//! each other, the most successful first.
+//!
+//! Candidates are tried out: small maps are drawn from each, and a small picture says for which
+//! mirror pixels the ray is resolved there with certainty (a sign change of Δ where the map is
+//! continuous). Then the maps are chosen greedily, each for the pixels that those before leave.
+
+use catoptric_scene::{Mirror, Random, Shape};
+use glam::DVec3;
+
+use super::march::March;
+use super::{MORE, MirrorMaps, TraceUniform};
+use crate::ReflectError;
+use crate::gpu::Gpu;
+use crate::image_order::cubemaps::{Wanted, draw_now, maps_layout};
+use crate::resources::{FLOAT4, target, view};
+use crate::spec::Options;
+use crate::stage::Stage;
+use crate::technique::Variant;
+
+/// Candidates for each mirror.
+const CANDIDATES: usize = 16;
+/// Longer side of the picture in which candidates are tried, pixels.
+const TRIAL_PIXELS: u32 = 64;
+/// Texels a side of the maps that are tried.
+const TRIAL_TEXELS: u32 = 64;
+/// Step of trial rays, as a share of their length.
+const TRIAL_STEP: f32 = 0.004;
+/// Seed of the candidates: the same scene has the same maps in every run.
+const SEED: u64 = 2017;
+
+/// World-space centres of the maps of each mirror, in the order in which they are traced.
+pub(crate) fn places(
+    gpu: &Gpu,
+    options: &Options,
+    stage: &Stage,
+) -> Result<Vec<Vec<DVec3>>, ReflectError> {
+    let wanted = options.whole("objects") as usize;
+    let outside = options.whole("bounces") > 1;
+    let scene = &stage.world.scene;
+    let mut rng = Random::new(SEED);
+    let mut candidates: Vec<Vec<DVec3>> = Vec::new();
+    for mirror in &scene.mirrors {
+        let count = match options.text("placement") {
+            "random" => wanted,
+            _ => CANDIDATES.max(wanted),
+        };
+        candidates.push(self::candidates(mirror, outside, count, &mut rng));
+    }
+    let covered = Trial::new(gpu, options, stage)?.covered(gpu, &candidates)?;
+    let chosen = candidates.iter().zip(&covered).map(|(centers, covered)| {
+        let order = greedy(centers, covered, wanted);
+        order.into_iter().map(|index| centers[index]).collect()
+    });
+    Ok(chosen.collect())
+}
+
+/// Points near a mirror's surface, the first one a good guess. Inside closed mirrors only where
+/// the maps do not show them (`outside` is false).
+fn candidates(mirror: &Mirror, outside: bool, count: usize, rng: &mut Random) -> Vec<DVec3> {
+    let (low, high) = mirror.shape.bounds();
+    let radius = (high - low).length() / 2.0;
+    let mesh = mirror.shape.tessellate(mirror.tessellation.min(32));
+    let inside = mirror.shape.is_closed() && !outside;
+    let first = match &mirror.shape {
+        Shape::Plane { center, normal, .. } => *center + 0.01 * radius * *normal,
+        Shape::Bowl { center, .. } => *center,
+        shape if inside => shape.center(),
+        _ => surface_point(&mesh, rng, 0.2 * radius),
+    };
+    let mut points = vec![first];
+    while points.len() < count {
+        let height = if inside && rng.below(2) == 0 {
+            rng.between(-0.8, 0.0)
+        } else {
+            rng.between(0.02, 0.6)
+        };
+        points.push(surface_point(&mesh, rng, height * radius));
+    }
+    points
+}
+
+/// A corner of a mesh, moved along its normal.
+fn surface_point(mesh: &catoptric_scene::Mesh, rng: &mut Random, height: f64) -> DVec3 {
+    let triangle = rng.below(mesh.triangles.len());
+    let corner = rng.below(3);
+    let position = mesh.positions[mesh.triangles[triangle][corner] as usize];
+    let normal = mesh.normals[triangle][corner].as_dvec3();
+    position.as_dvec3() + height * normal
+}
+
+/// Indices of the candidates chosen, each covering the most of what is left; where nothing is left
+/// to cover, the one farthest from those chosen.
+fn greedy(centers: &[DVec3], covered: &[Vec<bool>], wanted: usize) -> Vec<usize> {
+    let mut chosen: Vec<usize> = Vec::new();
+    let mut left = vec![true; covered.first().map_or(0, Vec::len)];
+    while chosen.len() < wanted.min(centers.len()) {
+        let gain = |index: usize| {
+            let pixels = covered[index].iter().zip(&left);
+            let gained = pixels.filter(|(covered, left)| **covered && **left).count();
+            let distances = chosen
+                .iter()
+                .map(|other| centers[*other].distance(centers[index]));
+            (gained, distances.fold(f64::INFINITY, f64::min))
+        };
+        let free = (0..centers.len()).filter(|index| !chosen.contains(index));
+        let best = free.map(|index| (gain(index), std::cmp::Reverse(index)));
+        let best =
+            best.max_by(|(a, i), (b, j)| (a.0.cmp(&b.0)).then(a.1.total_cmp(&b.1)).then(i.cmp(j)));
+        let Some((_, std::cmp::Reverse(index))) = best else {
+            break;
+        };
+        for (left, covered) in left.iter_mut().zip(&covered[index]) {
+            *left &= !covered;
+        }
+        chosen.push(index);
+    }
+    chosen
+}
+
+/// A small picture of the scene in which candidates are tried.
+struct Trial<'a> {
+    options: &'a Options,
+    stage: Stage,
+    own_layout: wgpu::BindGroupLayout,
+    march: March,
+}
+
+impl<'a> Trial<'a> {
+    fn new(gpu: &Gpu, options: &'a Options, stage: &Stage) -> Result<Self, ReflectError> {
+        let [width, height] = stage.world.size;
+        let scale = f64::from(TRIAL_PIXELS) / f64::from(width.max(height));
+        let size = [width, height].map(|side| ((f64::from(side) * scale) as u32).max(1));
+        let stage = Stage::new(gpu, options, &stage.world.scene, size)?;
+        let own_layout = maps_layout(gpu, "trial", MORE);
+        let march = March::with(gpu, &["continuous"], &stage, &own_layout)?;
+        draw_now(gpu, |frame| stage.begin(frame, Variant::Color));
+        Ok(Self {
+            options,
+            stage,
+            own_layout,
+            march,
+        })
+    }
+
+    /// By mirror, candidate, pixel: whether the ray is resolved in that candidate's map.
+    fn covered(
+        &self,
+        gpu: &Gpu,
+        candidates: &[Vec<DVec3>],
+    ) -> Result<Vec<Vec<Vec<bool>>>, ReflectError> {
+        let trace = TraceUniform {
+            step: TRIAL_STEP,
+            bounces: 1,
+            ..super::trace_uniform(self.options, &self.stage.world.scene)
+        };
+        let wanted = |center: DVec3| Wanted {
+            size: TRIAL_TEXELS,
+            centers: vec![center],
+            traced: 1,
+            mirrors: false,
+        };
+        let effort = target(gpu, "trial", self.stage.world.size, FLOAT4);
+        let mut covered = vec![Vec::new(); candidates.len()];
+        let most = candidates.iter().map(Vec::len).max().unwrap_or(0);
+        let first = candidates.iter().map(|centers| {
+            MirrorMaps::new(
+                gpu,
+                false,
+                &trace,
+                &self.stage,
+                wanted(centers[0]),
+                &self.own_layout,
+            )
+        });
+        let mut maps = first.collect::<Result<Vec<_>, _>>()?;
+        for round in 0..most {
+            for (maps, centers) in maps.iter_mut().zip(candidates) {
+                maps.maps.set_centers(gpu, &self.stage, &[centers[round]]);
+            }
+            let groups: Vec<_> = maps.iter().map(|maps| &maps.group).collect();
+            draw_now(gpu, |frame| {
+                for maps in &maps {
+                    maps.record(frame, &self.stage);
+                }
+                self.march
+                    .record_effort(frame, &self.stage, &groups, &view(&effort));
+            });
+            let texels = gpu.read_texture(&effort);
+            let mirrors = gpu.read_texture(&self.stage.gbuffer.position);
+            for (covered, mirror) in covered.iter_mut().zip(&self.stage.world.mirrors) {
+                let pixels = texels.iter().zip(&mirrors);
+                let resolved =
+                    pixels.map(|(effort, point)| point[3] == mirror.id as f32 && effort[2] > 0.0);
+                covered.push(resolved.collect());
+            }
+        }
+        Ok(covered)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_second_map_is_chosen_for_what_the_first_leaves() {
+        let centers = [DVec3::ZERO, DVec3::X, DVec3::Y];
+        let covered = [
+            vec![true, true, true, false],
+            vec![true, true, false, false],
+            vec![false, false, false, true],
+        ];
+        assert_eq!(greedy(&centers, &covered, 2), [0, 2]);
+        assert_eq!(greedy(&centers, &covered, 3), [0, 2, 1]);
+    }
+
+    #[test]
+    fn with_nothing_left_to_cover_the_farthest_is_chosen() {
+        let centers = [DVec3::ZERO, DVec3::X, 3.0 * DVec3::X];
+        let covered = [vec![true], vec![false], vec![false]];
+        assert_eq!(greedy(&centers, &covered, 2), [0, 2]);
+    }
+}

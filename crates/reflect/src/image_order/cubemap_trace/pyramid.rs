@@ -1,0 +1,91 @@
+//! The acceleration pyramid: least and greatest world distance of 2 × 2 cells, level by level
+//! (Číž 2017, section 3.6).
+
+use catoptric_scene::Scene;
+
+use crate::ReflectError;
+use crate::data::diagonal;
+use crate::gpu::Gpu;
+use crate::image_order::cubemaps::{CubeMaps, FACES};
+use crate::recorder::Recorder;
+use crate::resources::{Slot, compute, group, layout, module, texture_array, uniform};
+
+/// Side of the pass's workgroups, in cells.
+const GROUP: u32 = 8;
+
+/// Levels above the single texels of all faces of a set of maps.
+pub(crate) struct Pyramid {
+    /// (least, greatest) a cell; mip level 0 has half the texels of a face a side.
+    pub texture: wgpu::Texture,
+    from_texels: wgpu::ComputePipeline,
+    from_cells: wgpu::ComputePipeline,
+    groups: Vec<wgpu::BindGroup>,
+}
+
+impl Pyramid {
+    pub(crate) fn new(gpu: &Gpu, scene: &Scene, maps: &CubeMaps) -> Result<Self, ReflectError> {
+        let levels = maps.size().ilog2();
+        let layers = maps.distances.depth_or_array_layers();
+        let texture = texture_array(
+            gpu,
+            "distance pyramid",
+            [maps.size() / 2, layers],
+            levels,
+            wgpu::TextureFormat::Rg32Float,
+            wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::COPY_SRC,
+        );
+        let level_view = |texture: &wgpu::Texture, level| {
+            texture.create_view(&wgpu::TextureViewDescriptor {
+                dimension: Some(wgpu::TextureViewDimension::D2Array),
+                base_mip_level: level,
+                mip_level_count: Some(1),
+                ..Default::default()
+            })
+        };
+        let slots = [Slot::Textures, Slot::WriteArray, Slot::Uniform];
+        let layout = layout(gpu, "distance pyramid", &slots);
+        let far = uniform(gpu, &diagonal(scene));
+        let groups = (0..levels).map(|level| {
+            let finer = match level {
+                0 => level_view(&maps.distances, 0),
+                level => level_view(&texture, level - 1),
+            };
+            let coarser = level_view(&texture, level);
+            let resources = [
+                wgpu::BindingResource::TextureView(&finer),
+                wgpu::BindingResource::TextureView(&coarser),
+                far.as_entire_binding(),
+            ];
+            group(gpu, &layout, &resources)
+        });
+        let groups = groups.collect();
+        let pipeline = |features: &[&str]| -> Result<_, ReflectError> {
+            let module = module(gpu, "distance_pyramid", features)?;
+            Ok(compute(gpu, &module, "reduce", &[Some(&layout)]))
+        };
+        Ok(Self {
+            from_texels: pipeline(&["texels"])?,
+            from_cells: pipeline(&[])?,
+            groups,
+            texture,
+        })
+    }
+
+    /// Builds all levels, as the pass `pyramid`.
+    pub(crate) fn record(&self, frame: &mut Recorder<'_>) {
+        let layers = self.texture.depth_or_array_layers();
+        debug_assert_eq!(layers % FACES, 0);
+        for (group, level) in self.groups.iter().zip(0..) {
+            let groups = (self.texture.width() >> level).div_ceil(GROUP);
+            frame.compute("pyramid", |pass| {
+                pass.set_pipeline(if level == 0 {
+                    &self.from_texels
+                } else {
+                    &self.from_cells
+                });
+                pass.set_bind_group(0, group, &[]);
+                pass.dispatch_workgroups(groups, groups, layers);
+            });
+        }
+    }
+}

@@ -1,0 +1,332 @@
+//! Cube maps of the scene: colour, id and world distance seen from several centres, and of the
+//! mirrors, where wanted, their normals too. Read by `shared/maps.wesl`.
+
+use catoptric_scene::{Scene, View};
+use encase::ShaderType;
+use glam::{DVec2, DVec3};
+
+use crate::ReflectError;
+use crate::data::{MirrorUniform, ViewUniform, diagonal};
+use crate::gpu::Gpu;
+use crate::recorder::{Begin, Recorder};
+use crate::resources::{
+    DEPTH, FLOAT4, RasterEntries, Slot, group, layout, module, raster_to, set_uniform,
+    storage_bytes, target, texture_array, uniform,
+};
+use crate::stage::Stage;
+use crate::timing::Timer;
+
+/// Faces of a cube.
+pub(crate) const FACES: u32 = 6;
+/// Format of world distances.
+const DISTANCE: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
+/// Format of encoded normals.
+const NORMAL: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Float;
+
+/// Twin of `Maps` in `shared/maps.wesl`.
+#[derive(Clone, Copy, Debug, ShaderType)]
+struct MapsUniform {
+    size: u32,
+    count: u32,
+    far: f32,
+    diagonal: f32,
+}
+
+/// What a set of cube maps is.
+#[derive(Clone, Debug)]
+pub(crate) struct Wanted {
+    /// Texels a side of a face, a power of two.
+    pub size: u32,
+    /// World-space centres of the maps.
+    pub centers: Vec<DVec3>,
+    /// Maps that rays are traced in: the first ones.
+    pub traced: usize,
+    /// The traced maps show the mirrors, with their normals.
+    pub mirrors: bool,
+}
+
+/// Cube maps that stand ready to be drawn and read.
+pub(crate) struct CubeMaps {
+    wanted: Wanted,
+    uniform: wgpu::Buffer,
+    centers: wgpu::Buffer,
+    pub colors: wgpu::Texture,
+    pub distances: wgpu::Texture,
+    pub normals: Option<wgpu::Texture>,
+    depth: wgpu::Texture,
+    faces: Vec<Face>,
+    objects: wgpu::RenderPipeline,
+    mirrored: Option<Mirrored>,
+}
+
+/// One face of one map.
+struct Face {
+    view: wgpu::Buffer,
+    group: wgpu::BindGroup,
+    /// Colour, distance, normal.
+    targets: Vec<wgpu::TextureView>,
+}
+
+/// What draws mirrors into maps.
+struct Mirrored {
+    objects: wgpu::RenderPipeline,
+    exact: wgpu::RenderPipeline,
+    mesh: wgpu::RenderPipeline,
+    /// By map, mirror: uniform of the mirror seen from the map's centre, and its group.
+    mirrors: Vec<Vec<(wgpu::Buffer, wgpu::BindGroup)>>,
+}
+
+/// Bindings 0 to 3 of group 3 in shaders that read cube maps; `more` follow.
+pub(crate) fn maps_layout(gpu: &Gpu, label: &str, more: &[Slot]) -> wgpu::BindGroupLayout {
+    let mut slots = vec![Slot::Uniform, Slot::Read, Slot::Textures, Slot::Textures];
+    slots.extend(more);
+    layout(gpu, label, &slots)
+}
+
+impl CubeMaps {
+    /// # Errors
+    /// Maps that the device cannot hold.
+    pub(crate) fn new(gpu: &Gpu, stage: &Stage, wanted: Wanted) -> Result<Self, ReflectError> {
+        let world = &stage.world;
+        let layers = FACES * wanted.centers.len() as u32;
+        let array = |label, format| {
+            let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC;
+            texture_array(gpu, label, [wanted.size, layers], 1, format, usage)
+        };
+        let colors = array("map color", FLOAT4);
+        let distances = array("map distance", DISTANCE);
+        let normals = wanted.mirrors.then(|| array("map normal", NORMAL));
+        let layer_view = |texture: &wgpu::Texture, layer| {
+            texture.create_view(&wgpu::TextureViewDescriptor {
+                dimension: Some(wgpu::TextureViewDimension::D2),
+                base_array_layer: layer,
+                array_layer_count: Some(1),
+                ..Default::default()
+            })
+        };
+        let views = face_views(&world.scene, &wanted);
+        let faces = views.iter().zip(0..).map(|(data, layer)| {
+            let traced = layer < FACES * wanted.traced as u32;
+            let textures = [Some(&colors), Some(&distances)];
+            let normals = normals.as_ref().filter(|_| traced);
+            let textures = textures.into_iter().chain([normals]).flatten();
+            let view = uniform(gpu, data);
+            Face {
+                group: group(gpu, &world.view_layout, &[view.as_entire_binding()]),
+                view,
+                targets: textures.map(|texture| layer_view(texture, layer)).collect(),
+            }
+        });
+        let faces = faces.collect();
+        let module = module(gpu, "cubemap_faces", &[])?;
+        let layouts = [Some(&world.view_layout), None, Some(&world.surface_layout)];
+        let entries = |vertex, fragment| RasterEntries {
+            module: &module,
+            vertex,
+            fragment,
+        };
+        let plain = entries("vertex", "objects");
+        Ok(Self {
+            uniform: uniform(gpu, &maps_uniform(&world.scene, &wanted)),
+            centers: storage_bytes(gpu, bytemuck::cast_slice(&center_texels(&wanted))),
+            depth: target(gpu, "map depth", [wanted.size; 2], DEPTH),
+            objects: raster_to(gpu, plain, &[FLOAT4, DISTANCE], true, &layouts, &[]),
+            mirrored: (wanted.mirrors).then(|| Mirrored::new(gpu, stage, &wanted, &entries)),
+            colors,
+            distances,
+            normals,
+            faces,
+            wanted,
+        })
+    }
+
+    /// Texels a side of a face.
+    pub(crate) fn size(&self) -> u32 {
+        self.wanted.size
+    }
+
+    /// Maps that rays are traced in.
+    pub(crate) fn traced(&self) -> usize {
+        self.wanted.traced
+    }
+
+    /// Moves the maps, as many as before; they are drawn anew by [`CubeMaps::record`].
+    pub(crate) fn set_centers(&mut self, gpu: &Gpu, stage: &Stage, centers: &[DVec3]) {
+        assert_eq!(centers.len(), self.wanted.centers.len());
+        self.wanted.centers = centers.to_vec();
+        let scene = &stage.world.scene;
+        set_uniform(gpu, &self.uniform, &maps_uniform(scene, &self.wanted));
+        let texels = center_texels(&self.wanted);
+        gpu.queue
+            .write_buffer(&self.centers, 0, bytemuck::cast_slice(&texels));
+        for (face, data) in self.faces.iter().zip(face_views(scene, &self.wanted)) {
+            set_uniform(gpu, &face.view, &data);
+        }
+        let mirrored = self.mirrored.iter().flat_map(|mirrored| &mirrored.mirrors);
+        for (center, mirrors) in self.wanted.centers.iter().zip(mirrored) {
+            for ((buffer, _), data) in mirrors.iter().zip(mirrors_from(stage, *center)) {
+                set_uniform(gpu, buffer, &data);
+            }
+        }
+    }
+
+    /// Draws all faces, as the pass `cube maps`.
+    pub(crate) fn record(&self, frame: &mut Recorder<'_>, stage: &Stage) {
+        let world = &stage.world;
+        for (face, layer) in self.faces.iter().zip(0_usize..) {
+            let map = layer / FACES as usize;
+            let targets: Vec<_> = face.targets.iter().collect();
+            let depth = Some((&self.depth, Begin::Clear));
+            let mirrored = self.mirrored.as_ref().filter(|_| map < self.wanted.traced);
+            frame.render("cube maps", &targets, Begin::Clear, depth, |pass| {
+                let objects = mirrored.map_or(&self.objects, |mirrored| &mirrored.objects);
+                pass.set_pipeline(objects);
+                pass.set_bind_group(0, &face.group, &[]);
+                pass.set_bind_group(2, &world.surface_group, &[]);
+                pass.draw(0..world.corners, 0..1);
+                let Some(mirrored) = mirrored else { return };
+                for ((_, group), mirror) in mirrored.mirrors[map].iter().zip(&world.mirrors) {
+                    let exact = mirror.exact;
+                    pass.set_pipeline(if exact {
+                        &mirrored.exact
+                    } else {
+                        &mirrored.mesh
+                    });
+                    pass.set_bind_group(1, group, &[]);
+                    pass.set_vertex_buffer(0, mirror.vertices.slice(..));
+                    pass.draw(0..mirror.vertex_count, 0..1);
+                }
+            });
+        }
+    }
+
+    /// Resources of bindings 0 to 3 ([`maps_layout`]), the textures' views made by the caller.
+    pub(crate) fn resources<'a>(
+        &'a self,
+        [colors, distances]: [&'a wgpu::TextureView; 2],
+    ) -> [wgpu::BindingResource<'a>; 4] {
+        [
+            self.uniform.as_entire_binding(),
+            self.centers.as_entire_binding(),
+            wgpu::BindingResource::TextureView(colors),
+            wgpu::BindingResource::TextureView(distances),
+        ]
+    }
+
+    /// Views of colours and distances as [`CubeMaps::resources`] takes them.
+    pub(crate) fn views(&self) -> [wgpu::TextureView; 2] {
+        [array_view(&self.colors), array_view(&self.distances)]
+    }
+}
+
+impl Mirrored {
+    fn new<'a>(
+        gpu: &Gpu,
+        stage: &Stage,
+        wanted: &Wanted,
+        entries: &impl Fn(&'static str, &'static str) -> RasterEntries<'a>,
+    ) -> Self {
+        let world = &stage.world;
+        let mirror_layout = layout(gpu, "mirror in a map", &[Slot::Uniform]);
+        let traced = &wanted.centers[..wanted.traced];
+        let mirrors = traced.iter().map(|center| {
+            let of_mirror = |data| {
+                let buffer = uniform(gpu, &data);
+                let group = group(gpu, &mirror_layout, &[buffer.as_entire_binding()]);
+                (buffer, group)
+            };
+            mirrors_from(stage, *center).map(of_mirror).collect()
+        });
+        let formats = [FLOAT4, DISTANCE, NORMAL];
+        let objects = [Some(&world.view_layout), None, Some(&world.surface_layout)];
+        let corner = wgpu::VertexBufferLayout {
+            array_stride: 36,
+            step_mode: wgpu::VertexStepMode::Vertex,
+            attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x3],
+        };
+        let mirror = |entry| {
+            let layouts = [Some(&world.view_layout), Some(&mirror_layout)];
+            let entries = entries("mirror_vertex", entry);
+            raster_to(
+                gpu,
+                entries,
+                &formats,
+                true,
+                &layouts,
+                &[Some(corner.clone())],
+            )
+        };
+        let with_normals = entries("vertex", "objects_and_normals");
+        Self {
+            objects: raster_to(gpu, with_normals, &formats, true, &objects, &[]),
+            exact: mirror("mirror_exact"),
+            mesh: mirror("mirror_mesh"),
+            mirrors: mirrors.collect(),
+        }
+    }
+}
+
+/// All layers of a texture.
+pub(crate) fn array_view(texture: &wgpu::Texture) -> wgpu::TextureView {
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::D2Array),
+        ..Default::default()
+    })
+}
+
+/// Draws maps now, outside any frame.
+pub(crate) fn draw_now(gpu: &Gpu, record: impl FnOnce(&mut Recorder<'_>)) {
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    let mut unstamped = Timer::none();
+    record(&mut Recorder::new(&mut encoder, &mut unstamped));
+    gpu.queue.submit([encoder.finish()]);
+}
+
+/// The background lies where no object is from any centre inside the box around everything.
+fn maps_uniform(scene: &Scene, wanted: &Wanted) -> MapsUniform {
+    let diagonal = diagonal(scene);
+    MapsUniform {
+        size: wanted.size,
+        count: wanted.traced as u32,
+        far: diagonal,
+        diagonal,
+    }
+}
+
+fn center_texels(wanted: &Wanted) -> Vec<[f32; 4]> {
+    let texel = |center: &DVec3| center.as_vec3().extend(1.0).to_array();
+    wanted.centers.iter().map(texel).collect()
+}
+
+/// Views through all faces of all maps, in the order of the layers.
+fn face_views(scene: &Scene, wanted: &Wanted) -> Vec<ViewUniform> {
+    let faces = |center: &DVec3| {
+        let views = (0..FACES).map(|face| face_view(*center, face, wanted.size));
+        views.collect::<Vec<_>>()
+    };
+    let views = wanted.centers.iter().flat_map(faces);
+    views
+        .map(|view| ViewUniform::from_view(scene, &view))
+        .collect()
+}
+
+/// The view through one face: the twin of `face_direction` in `shared/cubemap.wesl`.
+fn face_view(center: DVec3, face: u32, size: u32) -> View {
+    let axis = |index: u32| DVec3::AXES[index as usize % 3];
+    let outwards = face / 2;
+    View {
+        eye: center,
+        right: axis(outwards + 1),
+        up: -axis(outwards + 2),
+        forward: axis(outwards) * if face % 2 == 1 { -1.0 } else { 1.0 },
+        tan: DVec2::ONE,
+        size: [size; 2],
+    }
+}
+
+/// All mirrors as seen from a centre.
+fn mirrors_from(stage: &Stage, center: DVec3) -> impl Iterator<Item = MirrorUniform> {
+    let scene = &stage.world.scene;
+    let mirrors = scene.mirrors.iter().zip(&stage.world.mirrors);
+    mirrors.map(move |(mirror, on_gpu)| MirrorUniform::new(&mirror.shape, on_gpu.id, center))
+}

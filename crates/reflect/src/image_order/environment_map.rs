@@ -1,0 +1,114 @@
+//! Environment mapping: one cube map from each mirror's centre, looked up in the reflected
+//! direction (Blinn and Newell 1976). The baseline that all four papers compare with.
+
+use catoptric_frame::Work;
+
+use super::cubemaps::{CubeMaps, Wanted, draw_now, maps_layout};
+use super::{ImageOrder, draw_reflections};
+use crate::ReflectError;
+use crate::gpu::Gpu;
+use crate::recorder::{Begin, Recorder};
+use crate::resources::{RasterTargets, group, module, raster};
+use crate::spec::Options;
+use crate::stage::Stage;
+use crate::technique::Variant;
+
+struct EnvironmentMap {
+    /// The maps are drawn anew in every frame.
+    every_frame: bool,
+    color: wgpu::RenderPipeline,
+    layers: wgpu::RenderPipeline,
+    /// One a mirror.
+    maps: Vec<(CubeMaps, wgpu::BindGroup)>,
+}
+
+pub(crate) fn make(
+    gpu: &Gpu,
+    options: &Options,
+    stage: &Stage,
+) -> Result<Box<dyn ImageOrder>, ReflectError> {
+    let module = module(gpu, "environment_map", &[])?;
+    let own_layout = maps_layout(gpu, "environment map", &[]);
+    let layouts = [
+        Some(&stage.world.view_layout),
+        Some(&stage.gbuffer.mirror_layout),
+        None,
+        Some(&own_layout),
+    ];
+    let pipeline = |entry, colors| {
+        let targets = RasterTargets {
+            colors,
+            depth: false,
+        };
+        raster(gpu, &module, entry, targets, &layouts, &[])
+    };
+    let mut maps = Vec::new();
+    for mirror in &stage.world.scene.mirrors {
+        let wanted = Wanted {
+            size: options.whole("size"),
+            centers: vec![mirror.shape.center()],
+            traced: 1,
+            mirrors: false,
+        };
+        let map = CubeMaps::new(gpu, stage, wanted)?;
+        let [colors, distances] = map.views();
+        let own = group(gpu, &own_layout, &map.resources([&colors, &distances]));
+        maps.push((map, own));
+    }
+    let technique = EnvironmentMap {
+        every_frame: options.is("update", "frame"),
+        color: pipeline("color", 1),
+        layers: pipeline("layers", 2),
+        maps,
+    };
+    draw_now(gpu, |frame| technique.record_maps(frame, stage));
+    Ok(Box::new(technique))
+}
+
+impl EnvironmentMap {
+    fn record_maps(&self, frame: &mut Recorder<'_>, stage: &Stage) {
+        for (map, _) in &self.maps {
+            map.record(frame, stage);
+        }
+    }
+}
+
+impl ImageOrder for EnvironmentMap {
+    /// The centre goes with its mirror where the map is drawn in every frame.
+    fn update(&mut self, gpu: &Gpu, stage: &Stage) -> Result<(), ReflectError> {
+        if self.every_frame {
+            for ((map, _), mirror) in self.maps.iter_mut().zip(&stage.world.scene.mirrors) {
+                map.set_centers(gpu, stage, &[mirror.shape.center()]);
+            }
+        }
+        Ok(())
+    }
+
+    fn record(&self, frame: &mut Recorder<'_>, stage: &Stage, variant: Variant) {
+        if self.every_frame {
+            self.record_maps(frame, stage);
+        }
+        let mut begin = Begin::Clear;
+        for ((_, own), mirror) in self.maps.iter().zip(&stage.gbuffer.mirror_groups) {
+            draw_reflections(frame, "lookup", stage, variant, begin, None, |pass| {
+                pass.set_pipeline(match variant {
+                    Variant::AllLayers => &self.layers,
+                    Variant::Color => &self.color,
+                });
+                pass.set_bind_group(0, &stage.world.view_group, &[]);
+                pass.set_bind_group(1, mirror, &[]);
+                pass.set_bind_group(3, own, &[]);
+                pass.draw(0..3, 0..1);
+            });
+            begin = Begin::Keep;
+        }
+    }
+
+    /// One lookup a pixel.
+    fn work(&self, _: &Gpu, _: &Stage) -> Work {
+        Work {
+            samples: 1.0,
+            ..Work::default()
+        }
+    }
+}

@@ -170,7 +170,7 @@ impl CubeMaps {
         }
     }
 
-    /// Draws all faces, as the pass `cube maps`.
+    /// Draws all faces, as the pass `maps`.
     pub(crate) fn record(&self, frame: &mut Recorder<'_>, stage: &Stage) {
         let world = &stage.world;
         for (face, layer) in self.faces.iter().zip(0_usize..) {
@@ -178,7 +178,7 @@ impl CubeMaps {
             let targets: Vec<_> = face.targets.iter().collect();
             let depth = Some((&self.depth, Begin::Clear));
             let mirrored = self.mirrored.as_ref().filter(|_| map < self.wanted.traced);
-            frame.render("cube maps", &targets, Begin::Clear, depth, |pass| {
+            frame.render("maps", &targets, Begin::Clear, depth, |pass| {
                 let objects = mirrored.map_or(&self.objects, |mirrored| &mirrored.objects);
                 pass.set_pipeline(objects);
                 pass.set_bind_group(0, &face.group, &[]);
@@ -329,4 +329,45 @@ fn mirrors_from(stage: &Stage, center: DVec3) -> impl Iterator<Item = MirrorUnif
     let scene = &stage.world.scene;
     let mirrors = scene.mirrors.iter().zip(&stage.world.mirrors);
     mirrors.map(move |(mirror, on_gpu)| MirrorUniform::new(&mirror.shape, on_gpu.id, center))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rounding of f64 in texels.
+    const TEXELS: f64 = 1e-9;
+
+    /// The twin of `face_point` in `shared/cubemap.wesl`, for directions within a face.
+    fn face_point(direction: DVec3) -> (u32, DVec2) {
+        let axis = direction.abs().max_position();
+        let [a, b, c] = [0, 1, 2].map(|step| direction[(axis + step) % 3]);
+        (
+            2 * axis as u32 + u32::from(a < 0.0),
+            DVec2::new(b, c) / a.abs(),
+        )
+    }
+
+    #[test]
+    fn a_face_is_drawn_as_it_is_looked_up() {
+        let center = DVec3::new(0.3, -1.0, 2.0);
+        for x in -2..=2 {
+            for y in -2..=2 {
+                for z in -2..=2 {
+                    // No two components equally long: on an edge two faces hold the point.
+                    let direction =
+                        DVec3::new(f64::from(x), 1.1 * f64::from(y), 1.3 * f64::from(z));
+                    if direction == DVec3::ZERO {
+                        continue;
+                    }
+                    let (face, at) = face_point(direction);
+                    let (texel, _) = face_view(center, face, 64)
+                        .project(center + 3.0 * direction)
+                        .expect("before the face");
+                    let looked_up = (at + 1.0) * 32.0;
+                    assert!(texel.distance(looked_up) < TEXELS, "{direction}");
+                }
+            }
+        }
+    }
 }

@@ -10,6 +10,8 @@ mod lanes;
 mod march;
 mod placement;
 mod pyramid;
+#[cfg(test)]
+mod tests;
 
 use catoptric_frame::{Traced, Work};
 use catoptric_scene::Scene;

@@ -1,0 +1,215 @@
+//! On a software adapter: versions of the technique that must agree do.
+
+use catoptric_frame::{Frame, Status};
+use catoptric_scene::Scene;
+
+use super::{MORE, MirrorMaps, trace_uniform};
+use crate::gpu::Gpu;
+use crate::image_order::cubemaps::{FACES, Wanted, draw_now, maps_layout};
+use crate::spec::parse;
+use crate::stage::Stage;
+use crate::technique::Output;
+use crate::testing::{gpu_or_skip, scene};
+
+const SIZE: [u32; 2] = [80, 60];
+
+/// Share of mirror pixels that a skipping march must give the same id as one that does not skip:
+/// points on the border of two texels may fall into either.
+const SAME_BY_SKIPPING: f64 = 0.999;
+/// The same for the compute version, which computes where a ray leaves a texel by other formulas.
+const SAME_BY_LANES: f64 = 0.995;
+
+fn render(gpu: &Gpu, scene: &Scene, technique: &str) -> Output {
+    let spec = parse(technique).expect("a technique");
+    let mut prepared = crate::prepare(gpu, &spec, scene, SIZE).expect("fits the device");
+    prepared.render().expect("renders")
+}
+
+/// Share of the mirror pixels that have the same state and id in both.
+fn same(a: &Frame, b: &Frame) -> f64 {
+    let [a, b] = [a, b].map(|frame| frame.reflected.as_ref().expect("all layers"));
+    let states = a.status.pixels().iter().zip(b.status.pixels());
+    let ids = a.id.pixels().iter().zip(b.id.pixels());
+    let mirror = states
+        .zip(ids)
+        .filter(|((a, _), _)| **a != Status::NotMirror);
+    let (mut same, mut all) = (0, 0);
+    for ((a, b), (id_a, id_b)) in mirror {
+        all += 1;
+        same += u32::from(a == b && id_a == id_b);
+    }
+    assert!(all > 500, "the mirror is in view: {all}");
+    f64::from(same) / f64::from(all)
+}
+
+#[test]
+fn skipping_changes_nothing_and_saves_samples() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let scene = scene("sphere-objects-1k");
+    for criterion in ["analytic", "distance"] {
+        let technique = |pyramid| {
+            format!(
+                "cubemap-trace(size=128,criterion={criterion},placement=random,pyramid={pyramid})"
+            )
+        };
+        let every = render(&gpu, &scene, &technique("off"));
+        let skipping = render(&gpu, &scene, &technique("sound"));
+        let share = same(&every.frame, &skipping.frame);
+        assert!(share >= SAME_BY_SKIPPING, "{criterion}: {share}");
+        assert!(
+            skipping.work.samples < 0.5 * every.work.samples,
+            "{criterion}"
+        );
+        assert!(skipping.work.skips > 0.0 && every.work.skips == 0.0);
+    }
+}
+
+#[test]
+fn lanes_find_what_fragments_find_texel_by_texel() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let scene = scene("sphere-table");
+    for criterion in ["analytic", "distance"] {
+        // 64: three levels, the last with less than 32 cells a node.
+        let technique = |options| {
+            format!("cubemap-trace(size=64,criterion={criterion},placement=random,{options})")
+        };
+        let fragments = render(&gpu, &scene, &technique("sampling=texel"));
+        let lanes = render(&gpu, &scene, &technique("stage=compute"));
+        let share = same(&fragments.frame, &lanes.frame);
+        assert!(share >= SAME_BY_LANES, "{criterion}: {share}");
+    }
+}
+
+#[test]
+fn what_is_counted_adds_up() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let output = render(
+        &gpu,
+        &scene("sphere-table"),
+        "cubemap-trace(size=32,objects=3,placement=random,accept=continuous)",
+    );
+    let traced = output.traced.expect("rays are followed");
+    let status = &output.frame.reflected.expect("all layers").status;
+    let count = |state| status.pixels().iter().filter(|s| **s == state).count() as u64;
+    assert_eq!(traced.resolved_by.len(), 3);
+    assert_eq!(traced.unresolved, count(Status::Unresolved));
+    assert_eq!(traced.pixels(), count(Status::Resolved) + traced.unresolved);
+    let samples: u64 = traced.samples.pixels().iter().map(|n| u64::from(*n)).sum();
+    let mean = samples as f64 / traced.pixels() as f64;
+    assert!((output.work.samples - mean).abs() < 1e-9 * mean);
+}
+
+#[test]
+fn a_pixel_that_no_map_resolves_is_filled() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let scene = scene("sphere-table");
+    let left = |unresolved| {
+        // Rays too short to reach anything far.
+        let technique = format!(
+            "cubemap-trace(size=32,objects=1,placement=random,length=0.3,unresolved={unresolved})"
+        );
+        let output = render(&gpu, &scene, &technique);
+        let before = output.traced.expect("rays are followed").unresolved;
+        let status = &output.frame.reflected.expect("all layers").status;
+        let states = status.pixels().iter();
+        (
+            before,
+            states.filter(|s| **s == Status::Unresolved).count() as u64,
+        )
+    };
+    let (before, marked) = left("mark");
+    assert!(before > 0);
+    assert_eq!(marked, before);
+    assert_eq!(left("background"), (before, before));
+    for filling in ["environment", "best"] {
+        assert_eq!(left(filling), (before, 0), "{filling}");
+    }
+    let (same, neighbours) = left("neighbours");
+    assert!(
+        same == before && neighbours < before,
+        "{neighbours} of {before}"
+    );
+}
+
+/// Values of a mip level of all layers, `channels` floats a texel.
+fn read_level(gpu: &Gpu, texture: &wgpu::Texture, level: u32, channels: u32) -> Vec<f32> {
+    let side = texture.width() >> level;
+    let layers = texture.depth_or_array_layers();
+    let row = (side * channels * 4).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+    let staging = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: u64::from(row) * u64::from(side * layers),
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC,
+        mapped_at_creation: false,
+    });
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    encoder.copy_texture_to_buffer(
+        wgpu::TexelCopyTextureInfo {
+            mip_level: level,
+            ..texture.as_image_copy()
+        },
+        wgpu::TexelCopyBufferInfo {
+            buffer: &staging,
+            layout: wgpu::TexelCopyBufferLayout {
+                offset: 0,
+                bytes_per_row: Some(row),
+                rows_per_image: Some(side),
+            },
+        },
+        wgpu::Extent3d {
+            width: side,
+            height: side,
+            depth_or_array_layers: layers,
+        },
+    );
+    gpu.queue.submit([encoder.finish()]);
+    let bytes = gpu.read_buffer(&staging);
+    let rows = bytes.chunks_exact(row as usize);
+    rows.flat_map(|line| line[..(side * channels * 4) as usize].chunks_exact(4))
+        .map(bytemuck::pod_read_unaligned)
+        .collect()
+}
+
+#[test]
+fn the_pyramid_is_that_of_the_cpu() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let scene = scene("sphere-objects-1k");
+    let options = parse("cubemap-trace").expect("a technique").options;
+    let stage = Stage::new(&gpu, &options, &scene, SIZE).expect("fits the device");
+    let wanted = Wanted {
+        size: 32,
+        centers: vec![scene.mirrors[0].shape.center()],
+        traced: 1,
+        mirrors: false,
+    };
+    let trace = trace_uniform(&options, &scene);
+    let layout = maps_layout(&gpu, "test", MORE);
+    let maps = MirrorMaps::new(&gpu, true, &trace, &stage, wanted, &layout);
+    let maps = maps.expect("fits the device");
+    draw_now(&gpu, |frame| maps.record(frame, &stage));
+
+    let far = crate::data::diagonal(&scene);
+    let distances = read_level(&gpu, &maps.maps.distances, 0, 1);
+    assert!(distances.contains(&0.0), "the background is in view");
+    assert!(distances.iter().all(|d| *d < far));
+    let range = |d: f32| if d == 0.0 { [far; 2] } else { [d; 2] };
+    let mut finer: Vec<[f32; 2]> = distances.into_iter().map(range).collect();
+    let pyramid = maps.pyramid.expect("was asked for").texture;
+    for level in 0..pyramid.mip_level_count() {
+        let side = (pyramid.width() >> level) as usize;
+        let mut cells = Vec::with_capacity(finer.len() / 4);
+        for row in 0..FACES as usize * side {
+            for column in 0..side {
+                let at = |dy, dx| finer[(2 * row + dy) * 2 * side + 2 * column + dx];
+                let children = [at(0, 0), at(0, 1), at(1, 0), at(1, 1)];
+                let least = children.iter().map(|c| c[0]).fold(f32::INFINITY, f32::min);
+                let most = children.iter().map(|c| c[1]).fold(0.0, f32::max);
+                cells.push([least, most]);
+            }
+        }
+        let on_gpu = read_level(&gpu, &pyramid, level, 2);
+        let on_gpu: Vec<[f32; 2]> = on_gpu.chunks_exact(2).map(|c| [c[0], c[1]]).collect();
+        assert_eq!(on_gpu, cells, "level {level}");
+        finer = cells;
+    }
+}

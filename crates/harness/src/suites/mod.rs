@@ -24,6 +24,7 @@
 //! record's schema, anchors are unique. Time: the whole suite shares `timing_s`; measuring apart
 //! from timing (reference, layers, comparison) comes on top and grows with the number of scenes.
 
+mod cubemap;
 mod figure;
 mod page;
 mod plan;
@@ -62,7 +63,12 @@ pub struct Suite {
 pub type MakePictures = fn(&Studio<'_>) -> anyhow::Result<Vec<Picture>>;
 
 /// Every suite, by name.
-pub const SUITES: [&Suite; 2] = [&search::SUITE, &tessellation::SUITE];
+pub const SUITES: [&Suite; 4] = [
+    &search::SUITE,
+    &tessellation::SUITE,
+    &cubemap::SUITE,
+    &cubemap::FULL,
+];
 
 /// What a suite's own pictures are made with.
 pub struct Studio<'s> {

@@ -5,7 +5,7 @@ use serde_json::Value;
 use crate::gate::lookup;
 use crate::record::{Record, Status};
 
-use super::{Ask, Figure, Point, plan};
+use super::{Ask, Figure, Point, Series, plan};
 
 /// The rows of one figure.
 pub struct Results<'r> {
@@ -17,6 +17,11 @@ impl<'r> Results<'r> {
     /// `rows` are all rows of the suite, each with its JSON.
     pub fn new(figure: &'r Figure, rows: &'r [(Record, Value)]) -> Self {
         Self { figure, rows }
+    }
+
+    /// All series of the figure.
+    pub fn series(&self) -> &'r [Series] {
+        &self.figure.series
     }
 
     /// The row of a point; `None` where it is not measured (yet).

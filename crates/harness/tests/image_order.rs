@@ -1,0 +1,81 @@
+//! Techniques of image order against the truth; skipped where there is no adapter, unless
+//! `CATOPTRIC_REQUIRE_GPU=1`.
+
+mod support;
+
+use serde_json::Value;
+use support::{catoptric, code, gpu_or_skip, json, stderr};
+
+/// Of techniques that should be exact: rounding at the edges of objects, a pixel in a thousand.
+const EXACT: f64 = 0.999;
+/// Degrees between the shown and the true point, 99 of 100 pixels: a pixel is a tenth of a degree.
+const EXACT_DEG: f64 = 0.05;
+/// Mirror pixels with the right object that two maps of 512² reach, and those they leave open.
+const TRACED: f64 = 0.95;
+const OPEN: f64 = 0.02;
+
+fn compare(scenes: &[&str], techniques: &[&str]) -> Vec<Value> {
+    let mut args = vec!["compare"];
+    args.extend(scenes);
+    args.push("-t");
+    args.extend(techniques);
+    args.extend(["--resolution", "96x72", "--time-budget", "0.05"]);
+    args.extend(["--format", "json", "--quiet"]);
+    let output = catoptric(&args);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    json(&output).as_array().cloned().unwrap_or_default()
+}
+
+fn number(row: &Value, pointer: &str) -> f64 {
+    let value = row.pointer(pointer).and_then(Value::as_f64);
+    value.unwrap_or_else(|| panic!("{pointer} of {row}"))
+}
+
+#[test]
+fn a_flat_mirror_is_the_mirrored_view() {
+    if !gpu_or_skip() {
+        return;
+    }
+    let rows = compare(&["planar", "bowl"], &["planar"]);
+    assert!(number(&rows[0], "/object_agreement") >= EXACT);
+    assert!(number(&rows[0], "/angular_error_deg/p99") <= EXACT_DEG);
+    assert_eq!(rows[1]["status"], "not-applicable");
+    assert_eq!(rows[1]["reason"], "mirror `bowl` is not a plane");
+}
+
+#[test]
+fn two_maps_resolve_nearly_everything_and_beat_the_environment_map() {
+    if !gpu_or_skip() {
+        return;
+    }
+    let traced =
+        "cubemap-trace(criterion=analytic,objects=2,size=512,sampling=texel,pyramid=sound)";
+    let rows = compare(
+        &["sphere-table", "sphere-objects-1k"],
+        &["environment-map", traced],
+    );
+    for pair in rows.chunks(2) {
+        let [environment, traced] = pair else {
+            panic!("a row is missing")
+        };
+        let agreement = number(traced, "/object_agreement");
+        assert!(agreement >= TRACED, "{agreement}");
+        assert!(agreement > number(environment, "/object_agreement"));
+        let open = &traced["coverage"]["unresolved"];
+        assert!(open.as_f64().unwrap_or(0.0) <= OPEN, "{open}");
+    }
+}
+
+#[test]
+fn more_bounces_come_nearer_to_the_truth_with_mirrors_in_mirrors() {
+    if !gpu_or_skip() {
+        return;
+    }
+    let technique = |bounces| {
+        format!("cubemap-trace(sampling=texel,pyramid=sound,accept=continuous,bounces={bounces})")
+    };
+    let rows = compare(&["bowl"], &[&technique(1), &technique(3)]);
+    let full = |row: &Value| number(row, "/against_full/object_agreement");
+    assert!(full(&rows[1]) > full(&rows[0]) + 0.05, "{rows:?}");
+    assert!(full(&rows[1]) > number(&rows[1], "/object_agreement"));
+}

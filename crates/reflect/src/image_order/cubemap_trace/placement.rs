@@ -133,7 +133,12 @@ impl<'a> Trial<'a> {
         let size = [width, height].map(|side| ((f64::from(side) * scale) as u32).max(1));
         let stage = Stage::new(gpu, options, &stage.world.scene, size)?;
         let own_layout = maps_layout(gpu, "trial", MORE);
-        let march = March::with(gpu, &["continuous"], &stage, &own_layout)?;
+        // Where any sign change counts, the first one must be a certain one.
+        let features: &[&str] = match options.text("accept") {
+            "any" => &["continuous", "strict"],
+            _ => &["continuous"],
+        };
+        let march = March::with(gpu, features, &stage, &own_layout)?;
         draw_now(gpu, |frame| stage.begin(frame, Variant::Color));
         Ok(Self {
             options,

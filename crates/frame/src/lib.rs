@@ -5,6 +5,7 @@
 //! `(i + ½, j + ½)`. World-space positions, linear RGB, everything `f32`.
 
 mod atomic;
+mod channels;
 mod error;
 pub mod exr;
 pub mod image;
@@ -12,6 +13,7 @@ mod names;
 pub mod png;
 pub mod results;
 
+pub use channels::Channels;
 pub use error::FrameError;
 pub use image::Image;
 pub use png::{write_png, write_png_rgb8};

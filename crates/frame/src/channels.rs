@@ -1,0 +1,264 @@
+//! The channels of an OpenEXR file by name, each of them there or not.
+//!
+//! [`Frame::read_exr`](crate::Frame::read_exr) wants whole layers; this serves whoever can use less.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use exr::error::Error;
+use exr::image::{FlatImage, FlatSamples};
+use exr::prelude::{ReadChannels, ReadLayers};
+use glam::Vec3;
+
+use crate::{FrameError, Image, Name, Status, names};
+
+/// Header attribute with the id → name list.
+pub(crate) const IDS_ATTRIBUTE: &str = "catoptric.ids";
+
+/// The largest id whose neighbours are all exact in a 32-bit float.
+pub(crate) const MAX_ID: f32 = 16_777_216.0;
+
+pub(crate) const AXES: [&str; 3] = ["X", "Y", "Z"];
+
+/// What a file holds.
+#[derive(Clone, Debug)]
+pub struct Channels {
+    path: PathBuf,
+    size: [u32; 2],
+    channels: BTreeMap<String, Channel>,
+    names: Vec<Name>,
+}
+
+#[derive(Clone, Debug)]
+struct Channel {
+    samples: Vec<f32>,
+    half: bool,
+}
+
+impl Channels {
+    /// Reads a file of one part whose data window is its display window; see
+    /// [`exr`](crate::exr) for what else is accepted.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, FrameError> {
+        let path = path.as_ref();
+        let image = exr::prelude::read()
+            .no_deep_data()
+            .largest_resolution_level()
+            .all_channels()
+            .all_layers()
+            .all_attributes()
+            .from_file(path)
+            .map_err(|error| match error {
+                Error::Io(source) => FrameError::Read {
+                    path: path.into(),
+                    source,
+                },
+                source => FrameError::Exr {
+                    path: path.into(),
+                    source,
+                },
+            })?;
+        Self::of(path, image)
+    }
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// The id → name list in the header, ids ascending; empty without one.
+    pub fn names(&self) -> &[Name] {
+        &self.names
+    }
+
+    /// True where a channel's name begins so.
+    pub fn any(&self, prefix: &str) -> bool {
+        self.channels.keys().any(|name| name.starts_with(prefix))
+    }
+
+    /// True where a channel whose name begins so has 16-bit samples.
+    pub fn half(&self, prefix: &str) -> bool {
+        let mut channels = self.channels.iter();
+        channels.any(|(name, channel)| name.starts_with(prefix) && channel.half)
+    }
+
+    /// What `read` finds under a name, or the error that it is missing.
+    pub(crate) fn required<T>(
+        &self,
+        name: &str,
+        read: impl Fn(&Self, &str) -> Result<Option<T>, FrameError>,
+    ) -> Result<T, FrameError> {
+        read(self, name)?.ok_or_else(|| self.missing(name))
+    }
+
+    /// One number a pixel; `None` where there is no such channel.
+    pub fn numbers(&self, name: &str) -> Result<Option<Image<f32>>, FrameError> {
+        let channel = self.channels.get(name);
+        Ok(channel.map(|channel| Image::from_vec(self.size, channel.samples.clone())))
+    }
+
+    /// `R`, `G` and `B` after a prefix; `None` where none of them is there.
+    pub fn colors(&self, prefix: &str) -> Result<Option<Image<Vec3>>, FrameError> {
+        self.vectors(prefix, ["R", "G", "B"])
+    }
+
+    /// `X`, `Y` and `Z` after a prefix; `None` where none of them is there.
+    pub fn positions(&self, prefix: &str) -> Result<Option<Image<Vec3>>, FrameError> {
+        self.vectors(prefix, AXES)
+    }
+
+    fn vectors(
+        &self,
+        prefix: &str,
+        suffixes: [&str; 3],
+    ) -> Result<Option<Image<Vec3>>, FrameError> {
+        let full = suffixes.map(|suffix| format!("{prefix}{suffix}"));
+        if !full.iter().any(|name| self.channels.contains_key(name)) {
+            return Ok(None);
+        }
+        let mut pixels = vec![Vec3::ZERO; self.size[0] as usize * self.size[1] as usize];
+        for (axis, name) in full.iter().enumerate() {
+            let channel = self.channels.get(name).ok_or_else(|| self.missing(name))?;
+            for (pixel, &sample) in pixels.iter_mut().zip(&channel.samples) {
+                pixel[axis] = sample;
+            }
+        }
+        Ok(Some(Image::from_vec(self.size, pixels)))
+    }
+
+    /// One whole number from 0 a pixel; `None` where there is no such channel.
+    pub fn integers(&self, name: &str) -> Result<Option<Image<u32>>, FrameError> {
+        let Some(samples) = self.numbers(name)? else {
+            return Ok(None);
+        };
+        let whole = |&sample: &f32| sample.fract() == 0.0 && (0.0..=MAX_ID).contains(&sample);
+        self.check(name, &samples, whole, "a whole number from 0")?;
+        Ok(Some(samples.map(|&sample| sample as u32)))
+    }
+
+    /// One [`Status`] code a pixel; `None` where there is no such channel.
+    pub fn statuses(&self, name: &str) -> Result<Option<Image<Status>>, FrameError> {
+        let Some(samples) = self.numbers(name)? else {
+            return Ok(None);
+        };
+        let known = |&code: &f32| status_of(code).is_some();
+        self.check(name, &samples, known, "a status code")?;
+        let status = |&code: &f32| status_of(code).unwrap_or_default();
+        Ok(Some(samples.map(status)))
+    }
+
+    fn missing(&self, name: &str) -> FrameError {
+        let present: Vec<&str> = self.channels.keys().map(String::as_str).collect();
+        // Of a group the prefix is known, and which channel of it is missed first.
+        let first = match name {
+            "" => "R".to_owned(),
+            group if group.ends_with('.') => format!("{group}X"),
+            channel => channel.to_owned(),
+        };
+        FrameError::MissingChannel {
+            path: self.path.clone(),
+            channel: first,
+            present: present.join(" "),
+        }
+    }
+
+    fn check(
+        &self,
+        name: &str,
+        samples: &Image<f32>,
+        fits: impl Fn(&f32) -> bool,
+        expected: &str,
+    ) -> Result<(), FrameError> {
+        match samples.pixels().iter().position(|sample| !fits(sample)) {
+            None => Ok(()),
+            Some(index) => {
+                let (value, width) = (samples.pixels()[index], self.size[0] as usize);
+                let (x, y) = (index % width, index / width);
+                Err(FrameError::OddChannel {
+                    path: self.path.clone(),
+                    channel: name.into(),
+                    reason: format!("{value} at column {x}, row {y} is not {expected}"),
+                })
+            }
+        }
+    }
+
+    fn of(path: &Path, mut image: FlatImage) -> Result<Self, FrameError> {
+        let odd = |reason| FrameError::Odd {
+            path: path.into(),
+            reason,
+        };
+        if image.layer_data.len() != 1 {
+            return Err(odd(format!(
+                "has {} parts, one is expected",
+                image.layer_data.len()
+            )));
+        }
+        let layer = image.layer_data.remove(0);
+        let display = image.attributes.display_window;
+        let position = layer.attributes.layer_position;
+        if (position, layer.size) != (display.position, display.size) {
+            return Err(odd(format!(
+                "the data window ({} × {} at {}, {}) is not the display window ({} × {} at {}, {})",
+                layer.size.0,
+                layer.size.1,
+                position.0,
+                position.1,
+                display.size.0,
+                display.size.1,
+                display.position.0,
+                display.position.1,
+            )));
+        }
+        let names = match layer.attributes.other.get(IDS_ATTRIBUTE.as_bytes()) {
+            Some(value) => {
+                let text = value
+                    .to_text()
+                    .ok()
+                    .and_then(|text| str::from_utf8(text.as_slice()).ok());
+                text.ok_or_else(|| "is not UTF-8 text".to_owned())
+                    .and_then(names::from_text)
+                    .map_err(|reason| odd(format!("header `{IDS_ATTRIBUTE}`: {reason}")))?
+            }
+            None => Vec::new(),
+        };
+
+        let mut channels = BTreeMap::new();
+        for channel in layer.channel_data.list {
+            let name = channel.name.to_string();
+            if channel.sampling != exr::math::Vec2(1, 1) {
+                let reason = "is subsampled; one sample a pixel is expected".into();
+                return Err(FrameError::OddChannel {
+                    path: path.into(),
+                    channel: name,
+                    reason,
+                });
+            }
+            let half = matches!(channel.sample_data, FlatSamples::F16(_));
+            let samples = match channel.sample_data {
+                FlatSamples::F32(samples) => samples,
+                other => other.values_as_f32().collect(),
+            };
+            channels.insert(name, Channel { samples, half });
+        }
+        let size = [layer.size.0 as u32, layer.size.1 as u32];
+        Ok(Self {
+            path: path.into(),
+            size,
+            channels,
+            names,
+        })
+    }
+}
+
+/// The status with this code.
+fn status_of(code: f32) -> Option<Status> {
+    [
+        Status::NotMirror,
+        Status::Resolved,
+        Status::Unresolved,
+        Status::Below,
+        Status::Back,
+    ]
+    .into_iter()
+    .find(|&status| f32::from(status as u8) == code)
+}

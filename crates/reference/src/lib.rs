@@ -23,4 +23,4 @@ pub mod tracer;
 pub use error::{NotAvailable, ReferenceError};
 pub use points::{Solutions, in_view, points_in_view, reflection_points, true_vertices};
 pub use render::{PixelTrace, Reflection, RenderOptions, Truth};
-pub use tracer::{Hit, Surface, Tracer};
+pub use tracer::{Hit, RayStart, Surface, Tracer};

@@ -25,6 +25,21 @@ const NUDGE: f64 = 1e-12;
 /// the start along a ray that grazes the bowl far more than across it.
 const BOWL_NUDGE: f64 = 1e-9;
 
+/// How far Mitsuba 3 moves the start of a ray off the surface it leaves, as a share of 1 + the
+/// largest coordinate.
+const MITSUBA_OFFSET: f64 = 1500.0 / 16_777_216.0;
+
+/// Where a ray that leaves a mirror starts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RayStart {
+    /// On the surface.
+    #[default]
+    Exact,
+    /// Off the surface, as far as Mitsuba 3 moves it, to the side that the ray goes to: for
+    /// comparing with its pictures more finely than that offset.
+    Mitsuba,
+}
+
 /// A scene made ready for rays.
 #[derive(Debug)]
 pub struct Tracer {
@@ -33,6 +48,7 @@ pub struct Tracer {
     mesh_mirrors: Triangles,
     /// Largest distance of anything from the origin.
     extent: f64,
+    ray_start: RayStart,
 }
 
 /// Where a ray meets a surface.
@@ -132,7 +148,14 @@ impl Tracer {
             objects,
             mesh_mirrors,
             extent,
+            ray_start: RayStart::default(),
         })
+    }
+
+    /// The same with rays leaving mirrors elsewhere.
+    #[must_use]
+    pub fn with_ray_start(self, ray_start: RayStart) -> Self {
+        Self { ray_start, ..self }
     }
 
     /// The scene traced.
@@ -169,6 +192,9 @@ impl Tracer {
     /// What a ray in direction `dir` meets that leaves a mirror at `from`: objects, and mirrors
     /// if asked for.
     pub(crate) fn trace_reflected(&self, from: &Hit, dir: DVec3, mirrors: bool) -> Option<Hit> {
+        if self.ray_start == RayStart::Mitsuba {
+            return self.trace_from_mitsubas_start(from, dir, mirrors);
+        }
         let nudge = self.extent * NUDGE;
         let start = match from.surface {
             Surface::Mirror { index, .. } if self.scene.mirrors[index].shape.is_analytic() => {
@@ -187,6 +213,23 @@ impl Tracer {
             },
         };
         self.nearest(&start, dir)
+    }
+
+    /// [`Tracer::trace_reflected`] under [`RayStart::Mitsuba`]; the distance is still measured from
+    /// the surface.
+    fn trace_from_mitsubas_start(&self, from: &Hit, dir: DVec3, mirrors: bool) -> Option<Hit> {
+        let offset = MITSUBA_OFFSET * (1.0 + from.position.abs().max_element());
+        let side = from.geometric * from.geometric.dot(dir).signum();
+        let start = Start {
+            origin: from.position + offset * side,
+            t_min: 0.0,
+            mirrors,
+            leaving: None,
+        };
+        self.nearest(&start, dir).map(|hit| Hit {
+            t: hit.position.distance(from.position),
+            ..hit
+        })
     }
 
     /// Colour of an object's surface at a hit; black for mirrors.

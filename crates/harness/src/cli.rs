@@ -102,6 +102,16 @@ pub enum Command {
         #[arg(long, value_name = "FILE")]
         into: Option<PathBuf>,
     },
+    /// Write a scene for another renderer
+    Export {
+        /// Built-in name or scene file
+        scene: String,
+        /// Folder to write `scene.xml` and what belongs to it into; Mitsuba 3 loads it as it is
+        #[arg(long, value_name = "DIR")]
+        mitsuba: PathBuf,
+    },
+    /// Compare our tracer with pictures that another renderer made of the same scenes
+    Check(CheckArgs),
     /// Describe the graphics adapter and test its clock
     Doctor,
 }
@@ -142,6 +152,39 @@ pub struct BenchArgs {
     /// Seconds of timing in all, shared by everything that is measured; default: by the suite
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub time_budget: Option<f64>,
+}
+
+/// What `check` is asked.
+#[derive(Clone, Debug, Args)]
+pub struct CheckArgs {
+    /// One picture; without it, all that are stored
+    pub file: Option<PathBuf>,
+    /// The scene it shows: built-in name or scene file
+    #[arg(long)]
+    pub scene: Option<String>,
+    /// Folder of the stored pictures, their sidecars and `scenes` [default: reference]
+    #[arg(long, value_name = "DIR", conflicts_with = "file")]
+    pub images: Option<PathBuf>,
+    /// What its reflected rays see; default: as the picture or its sidecar says, else what fits
+    #[arg(long, value_enum)]
+    pub truth: Option<TruthArg>,
+    /// Where our reflected rays start; default: both ways for Mitsuba's pictures with a sidecar
+    #[arg(long, value_enum)]
+    pub start: Option<StartArg>,
+    /// Samples a pixel it was made with, in a regular grid; default: as its sidecar says, else 1
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub samples: Option<u32>,
+}
+
+/// Where reflected rays start.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum StartArg {
+    /// On the mirror
+    Surface,
+    /// Off the mirror, as far as Mitsuba moves them
+    Mitsuba,
+    /// Once so, once so
+    Both,
 }
 
 /// What `list` lists.

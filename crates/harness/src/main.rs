@@ -5,11 +5,13 @@
 //! them, the other commands are single words of the sentence.
 
 mod against;
+mod check;
 mod cli;
 mod compare;
 mod diff;
 mod doctor;
 mod exit;
+mod export;
 mod gate;
 mod list;
 mod measure;
@@ -62,6 +64,8 @@ fn run(Cli { command, common }: Cli) -> anyhow::Result<Outcome> {
         Command::Report { suite, time_budget } => report::run(suite, time_budget, &common),
         Command::Diff { reference, test } => diff::run(&reference, &test, &common),
         Command::Summary { record, into } => summary::run(&record, into.as_deref(), &common),
+        Command::Export { scene, mitsuba } => export::run(&scene, &mitsuba, &common),
+        Command::Check(args) => check::run(&args, &common),
         Command::Doctor => doctor::run(&common),
     }
 }

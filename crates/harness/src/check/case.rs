@@ -1,0 +1,217 @@
+//! What is checked: pictures, the scenes they show, and what is known about how they were made.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+use catoptric_frame::Channels;
+use catoptric_reference::{RayStart, Truth};
+use catoptric_scene::{LoadOptions, Scene};
+use serde_json::Value;
+
+use crate::cli::{CheckArgs, Common, StartArg, TruthArg};
+use crate::exit::bad_input;
+
+/// A picture by another renderer, and the scene it is to show.
+pub struct Case {
+    /// The picture's name, without folder and ending.
+    pub name: String,
+    /// The picture.
+    pub channels: Channels,
+    /// What it shows, as it is now.
+    pub scene: Scene,
+    /// Hash of the scene when the picture was made, if known and another one.
+    pub stale: Option<String>,
+    /// Rays along each side of a pixel.
+    pub side: u32,
+    /// What its reflected rays may see: the first of these that fits.
+    pub truths: Vec<Truth>,
+    /// Where our reflected rays start.
+    pub starts: Vec<RayStart>,
+}
+
+/// The one picture that is asked for, or all stored ones by name.
+pub fn cases(args: &CheckArgs, common: &Common) -> anyhow::Result<Vec<Case>> {
+    match (&args.file, &args.scene) {
+        (Some(file), Some(scene)) => Ok(vec![case(file, scene, args, common)?]),
+        (Some(file), None) => match Sidecar::of(file)?.and_then(|sidecar| sidecar.scene) {
+            Some(name) => Ok(vec![case(file, &beside(file, &name), args, common)?]),
+            None => Err(bad_input(format!(
+                "{}: say which scene it shows: --scene SCENE",
+                file.display()
+            ))),
+        },
+        (None, Some(_)) => Err(bad_input(
+            "--scene goes with a picture: check FILE.exr --scene SCENE",
+        )),
+        (None, None) => stored(args, common),
+    }
+}
+
+/// Every picture in the folder of references.
+fn stored(args: &CheckArgs, common: &Common) -> anyhow::Result<Vec<Case>> {
+    let folder = folder(args)?;
+    let entries = std::fs::read_dir(&folder)
+        .with_context(|| format!("cannot read the folder {}", folder.display()))?;
+    let mut files = entries
+        .map(|entry| Ok(entry?.path()))
+        .collect::<std::io::Result<Vec<_>>>()
+        .with_context(|| format!("cannot read the folder {}", folder.display()))?;
+    files.retain(|file| file.extension().is_some_and(|extension| extension == "exr"));
+    files.sort();
+    if files.is_empty() {
+        return Err(bad_input(format!(
+            "{}: holds no picture (*.exr)",
+            folder.display()
+        )));
+    }
+    let load = |file: &PathBuf| {
+        let name = Sidecar::of(file)?.and_then(|sidecar| sidecar.scene);
+        let name = name.ok_or_else(|| {
+            bad_input(format!(
+                "{}: no `scene` in {} beside it",
+                file.display(),
+                sidecar_path(file).display()
+            ))
+        })?;
+        case(file, &beside(file, &name), args, common)
+    };
+    files.iter().map(load).collect()
+}
+
+/// `--images`, else `reference` here, else that of the checkout this program was built from.
+fn folder(args: &CheckArgs) -> anyhow::Result<PathBuf> {
+    if let Some(folder) = &args.images {
+        return Ok(folder.clone());
+    }
+    let here = PathBuf::from("reference");
+    let checkout = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reference");
+    [here, checkout]
+        .into_iter()
+        .find(|folder| folder.is_dir())
+        .ok_or_else(|| {
+            bad_input("no folder `reference` here: say where the pictures are, --images DIR")
+        })
+}
+
+/// A scene file in the folder `scenes` beside a picture, else a built-in name.
+fn beside(file: &Path, name: &str) -> String {
+    let folder = file.parent().unwrap_or(Path::new(""));
+    let scene = folder.join("scenes").join(format!("{name}.toml"));
+    if scene.is_file() {
+        scene.to_string_lossy().into_owned()
+    } else {
+        name.to_owned()
+    }
+}
+
+fn case(file: &Path, scene: &str, args: &CheckArgs, common: &Common) -> anyhow::Result<Case> {
+    let channels = Channels::read(file)?;
+    let sidecar = Sidecar::of(file)?.unwrap_or_default();
+    if let Some(asked) = common.resolution.filter(|asked| *asked != channels.size()) {
+        let ([w, h], [width, height]) = (channels.size(), asked);
+        return Err(bad_input(format!(
+            "{} is {w}x{h} pixels, not {width}x{height}; without --resolution its own size is taken",
+            file.display()
+        )));
+    }
+    let scene = catoptric_scene::open(
+        scene,
+        &LoadOptions {
+            models: common.models.clone(),
+            resolution: Some(channels.size()),
+        },
+    )?;
+    let stale = sidecar.scene_hash.filter(|hash| *hash != scene.hash);
+    let truths = truths(&channels, sidecar.bounces, args, common)?;
+    let starts = match args.start {
+        Some(StartArg::Surface) => vec![RayStart::Exact],
+        Some(StartArg::Mitsuba) => vec![RayStart::Mitsuba],
+        Some(StartArg::Both) => vec![RayStart::Exact, RayStart::Mitsuba],
+        None if sidecar.renderer.as_deref() == Some("Mitsuba") => {
+            vec![RayStart::Exact, RayStart::Mitsuba]
+        }
+        None => vec![RayStart::Exact],
+    };
+    let samples = args.samples.or(sidecar.samples).unwrap_or(1).max(1);
+    let side = samples.isqrt();
+    if side * side != samples {
+        return Err(bad_input(format!(
+            "{}: {samples} samples a pixel are no regular grid: a square number is needed",
+            file.display()
+        )));
+    }
+    Ok(Case {
+        name: file
+            .file_stem()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned(),
+        channels,
+        scene,
+        stale,
+        side,
+        truths,
+        starts,
+    })
+}
+
+/// What a picture's reflected rays may see. The command line says, or the sidecar, or the layer
+/// `bounces`, of which nothing exceeds the limit that it was made with. A picture that does not
+/// say is tried as each of what it can be.
+fn truths(
+    channels: &Channels,
+    from_sidecar: Option<u32>,
+    args: &CheckArgs,
+    common: &Common,
+) -> anyhow::Result<Vec<Truth>> {
+    let full = |bounces| Truth::Full { bounces };
+    Ok(
+        match (args.truth, from_sidecar, channels.integers("bounces")?) {
+            (Some(TruthArg::FirstBounce), ..) => vec![Truth::FirstBounce],
+            (Some(TruthArg::Full), ..) => vec![full(common.bounces)],
+            (None, Some(bounces), _) => vec![full(bounces)],
+            (None, None, Some(layer)) => {
+                vec![full(layer.pixels().iter().copied().max().unwrap_or(1))]
+            }
+            (None, None, None) => vec![Truth::FirstBounce, full(common.bounces), full(1)],
+        },
+    )
+}
+
+/// The JSON file beside a picture, as far as it says something.
+#[derive(Default)]
+struct Sidecar {
+    scene: Option<String>,
+    scene_hash: Option<String>,
+    renderer: Option<String>,
+    samples: Option<u32>,
+    bounces: Option<u32>,
+}
+
+fn sidecar_path(file: &Path) -> PathBuf {
+    file.with_extension("json")
+}
+
+impl Sidecar {
+    fn of(file: &Path) -> anyhow::Result<Option<Self>> {
+        let path = sidecar_path(file);
+        let text = match std::fs::read_to_string(&path) {
+            Ok(text) => text,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+            Err(error) => {
+                return Err(error).with_context(|| format!("cannot read {}", path.display()));
+            }
+        };
+        let value: Value = serde_json::from_str(&text)
+            .map_err(|error| bad_input(format!("{}: {error}", path.display())))?;
+        let text = |value: &Value| value.as_str().map(str::to_owned);
+        let count = |value: &Value| value.as_u64().and_then(|count| u32::try_from(count).ok());
+        Ok(Some(Self {
+            scene: text(&value["scene"]),
+            scene_hash: text(&value["scene_hash"]),
+            renderer: text(&value["renderer"]),
+            samples: count(&value["settings"]["samples"]),
+            bounces: count(&value["settings"]["bounces"]),
+        }))
+    }
+}

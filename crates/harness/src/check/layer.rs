@@ -1,0 +1,169 @@
+//! How one layer of a picture compares.
+
+use catoptric_frame::Image;
+use catoptric_metrics::stats::percentile;
+use serde::Serialize;
+
+use super::limits::{self, Distance};
+
+/// How one layer compares.
+#[derive(Clone, Debug, Serialize)]
+pub struct Layer {
+    /// As in the picture; `2+` is added for paths of two reflections and more.
+    pub layer: &'static str,
+    /// Pixels compared.
+    pub pixels: usize,
+    /// Share of them that agree; for layers of ids, counts and colours.
+    pub agree: Option<f64>,
+    /// Median difference, for other layers and colours.
+    pub p50: Option<f64>,
+    /// 99.9th percentile.
+    pub p999: Option<f64>,
+    /// Largest.
+    pub max: Option<f64>,
+    /// In words.
+    pub limit: String,
+    /// Whether it is kept.
+    pub passed: bool,
+    /// Differences, NaN where nothing was compared, and the one that is painted brightest.
+    #[serde(skip)]
+    pub map: (Image<f32>, f32),
+}
+
+impl Layer {
+    /// A layer of ids, codes or counts. Compared nowhere, it keeps its limit: where that is wrong,
+    /// the layers that choose the pixels fall short.
+    pub fn agreement<T: PartialEq>(
+        layer: &'static str,
+        mask: &[bool],
+        theirs: &Image<T>,
+        ours: &Image<T>,
+    ) -> Self {
+        let pairs = theirs.pixels().iter().zip(ours.pixels());
+        let differs = pairs.map(|(theirs, ours)| f32::from(u8::from(theirs != ours)));
+        let differs = Image::from_vec(theirs.size(), differs.collect());
+        let values = sorted(&differs, mask);
+        let agreeing = count(&values, 0.0);
+        Self {
+            layer,
+            pixels: values.len(),
+            agree: share(agreeing, values.len()),
+            p50: None,
+            p999: None,
+            max: None,
+            limit: format!("≥ {} %", limits::AGREE * 100.0),
+            passed: enough(agreeing, values.len(), limits::AGREE),
+            map: (masked(&differs, mask), 1.0),
+        }
+    }
+
+    /// A layer of points, directions or lengths; one that is not a number falls short.
+    pub fn distance(layer: &'static str, mask: &[bool], off: &Image<f32>, limit: Distance) -> Self {
+        let values = sorted(off, mask);
+        let (p50, p999) = (percentile(&values, 0.5), percentile(&values, 0.999));
+        let within = |value: Option<f64>, limit: f64| value.is_none_or(|value| value <= limit);
+        let numbers = values.iter().all(|value| !value.is_nan());
+        Self {
+            layer,
+            pixels: values.len(),
+            agree: None,
+            p50,
+            p999,
+            max: values.last().copied(),
+            limit: format!("p50 ≤ {:.1e}, p99.9 ≤ {:.1e}", limit.p50, limit.p999),
+            passed: numbers && within(p50, limit.p50) && within(p999, limit.p999),
+            map: (masked(off, mask), limit.p999 as f32),
+        }
+    }
+
+    /// A layer of colours that are `off` ours, and `beyond` what they may be: at least a share of
+    /// them by no more than `within`.
+    pub fn color(
+        layer: &'static str,
+        mask: &[bool],
+        off: &Image<f32>,
+        beyond: &Image<f32>,
+        within: f64,
+        least: f64,
+    ) -> Self {
+        let differences = sorted(off, mask);
+        let pixels = differences.len();
+        let agreeing = count(&sorted(beyond, mask), within);
+        Self {
+            layer,
+            pixels,
+            agree: share(agreeing, pixels),
+            p50: percentile(&differences, 0.5),
+            p999: percentile(&differences, 0.999),
+            max: differences.last().copied(),
+            limit: format!("≥ {} % within {within:.1e}", least * 100.0),
+            passed: enough(agreeing, pixels, least),
+            map: (masked(beyond, mask), 100.0 * within as f32),
+        }
+    }
+}
+
+/// Values within a mask, ascending, NaN last.
+fn sorted(image: &Image<f32>, mask: &[bool]) -> Vec<f64> {
+    let kept = image.pixels().iter().zip(mask).filter(|(_, kept)| **kept);
+    let mut values: Vec<f64> = kept.map(|(value, _)| f64::from(*value)).collect();
+    values.sort_by(f64::total_cmp);
+    values
+}
+
+/// An image with NaN outside a mask.
+fn masked(image: &Image<f32>, mask: &[bool]) -> Image<f32> {
+    let pairs = image.pixels().iter().zip(mask);
+    let pixels = pairs.map(|(value, kept)| if *kept { *value } else { f32::NAN });
+    Image::from_vec(image.size(), pixels.collect())
+}
+
+/// How many values are up to a limit; NaN is not.
+fn count(values: &[f64], limit: f64) -> usize {
+    values.iter().filter(|value| **value <= limit).count()
+}
+
+fn share(agreeing: usize, pixels: usize) -> Option<f64> {
+    (pixels > 0).then(|| agreeing as f64 / pixels as f64)
+}
+
+fn enough(agreeing: usize, pixels: usize, least: f64) -> bool {
+    let off = pixels - agreeing;
+    off <= limits::ALWAYS || agreeing as f64 >= least * pixels as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MASK: [bool; 4] = [true, true, true, false];
+
+    fn row<T>(values: [T; 4]) -> Image<T> {
+        Image::from_vec([4, 1], values.into())
+    }
+
+    #[test]
+    fn one_pixel_may_always_disagree_and_no_more() {
+        let layer = |theirs| Layer::agreement("id", &MASK, &row(theirs), &row([1, 2, 3, 4]));
+        assert!(layer([1, 2, 3, 9]).passed);
+        assert!(layer([1, 2, 9, 4]).passed);
+        let two = layer([1, 9, 9, 4]);
+        assert!(!two.passed);
+        assert_eq!((two.pixels, two.agree), (3, Some(1.0 / 3.0)));
+        assert!(two.map.0.pixels()[3].is_nan());
+    }
+
+    #[test]
+    fn what_is_not_a_number_falls_short() {
+        let limit = Distance {
+            p50: 1.0,
+            p999: 1.0,
+        };
+        let layer = |off| Layer::distance("position", &MASK, &row(off), limit);
+        assert!(layer([1.0, 0.5, 0.0, f32::NAN]).passed);
+        assert!(!layer([0.0, 0.0, f32::NAN, 0.0]).passed);
+        assert!(!layer([0.0, 0.0, 1.5, 0.0]).passed);
+        let beyond = row([f32::NAN, f32::NAN, 0.0, 0.0]);
+        assert!(!Layer::color("R G B", &MASK, &beyond, &beyond, 1.0, 0.9).passed);
+    }
+}

@@ -1,0 +1,277 @@
+//! Layer by layer: how far a picture is from what our tracer sees.
+
+use catoptric_frame::{Channels, Frame, FrameError, Image, Primary, Reflected, Status};
+use catoptric_reference::{RayStart, RenderOptions, Tracer, Truth};
+use catoptric_scene::Scene;
+use glam::{DVec2, Vec3};
+
+use super::color;
+use super::layer::Layer;
+use super::limits;
+use super::masks::Masks;
+
+/// What our tracer sees.
+pub struct Ours {
+    color: Image<Vec3>,
+    primary: Primary,
+    reflected: Reflected,
+    /// Unit directions of the first reflected rays, 0 where there are none.
+    direction: Image<Vec3>,
+    start: RayStart,
+    side: u32,
+}
+
+impl Ours {
+    /// Traces a scene; colour is the mean of `side` × `side` rays a pixel.
+    pub fn trace(
+        scene: &Scene,
+        size: [u32; 2],
+        truth: Truth,
+        start: RayStart,
+        side: u32,
+    ) -> anyhow::Result<Self> {
+        let tracer = Tracer::new(scene)?.with_ray_start(start);
+        let Frame {
+            color,
+            primary: Some(primary),
+            reflected: Some(reflected),
+            ..
+        } = tracer.render(&RenderOptions {
+            samples: side,
+            ..RenderOptions::new(size, truth)
+        })
+        else {
+            unreachable!("the tracer fills all layers");
+        };
+        let view = scene.camera.view(size);
+        let [width, height] = size;
+        let mut direction = Image::filled(size, Vec3::ZERO);
+        for y in 0..height {
+            for x in 0..width {
+                let at = DVec2::new(f64::from(x), f64::from(y)) + 0.5;
+                let pixel = tracer.reflect_pixel(&view, at, Truth::FirstBounce);
+                if let Some(reflection) = pixel.reflection {
+                    *direction.at_mut(x, y) = reflection.direction.as_vec3();
+                }
+            }
+        }
+        Ok(Self {
+            color,
+            primary,
+            reflected,
+            direction,
+            start,
+            side,
+        })
+    }
+}
+
+/// The layers by which pixels are chosen, as far as a picture has them.
+pub struct Theirs {
+    /// `primary.id`
+    pub primary_id: Option<Image<u32>>,
+    /// `reflected.id`
+    pub reflected_id: Option<Image<u32>>,
+    /// `reflected.status`
+    pub status: Option<Image<Status>>,
+    /// `bounces`
+    pub bounces: Option<Image<u32>>,
+}
+
+impl Theirs {
+    fn new(channels: &Channels) -> Result<Self, FrameError> {
+        Ok(Self {
+            primary_id: channels.integers("primary.id")?,
+            reflected_id: channels.integers("reflected.id")?,
+            status: channels.statuses("reflected.status")?,
+            bounces: channels.integers("bounces")?,
+        })
+    }
+}
+
+/// Everything that a picture brings, compared with ours.
+pub struct Measured {
+    /// In the order of a path.
+    pub layers: Vec<Layer>,
+    /// Pixels at which we see a mirror.
+    pub mirror_pixels: usize,
+    /// As in [`Masks::apart`].
+    pub apart: usize,
+}
+
+impl Measured {
+    /// Whether every layer keeps its limit.
+    pub fn passed(&self) -> bool {
+        self.layers.iter().all(|layer| layer.passed)
+    }
+
+    /// Sum over the layers of the shares that disagree: of two truths the nearer has less.
+    pub fn disagreement(&self) -> f64 {
+        let off = |layer: &Layer| layer.agree.map_or(0.0, |agree| 1.0 - agree);
+        self.layers.iter().map(off).sum()
+    }
+}
+
+/// Compares all layers that a picture has.
+pub fn measure(channels: &Channels, ours: &Ours) -> Result<Measured, FrameError> {
+    let theirs = Theirs::new(channels)?;
+    let (primary, reflected) = (&ours.primary, &ours.reflected);
+    let masks = Masks::new(&theirs, primary, reflected);
+    let mut layers = Vec::new();
+
+    if let Some(id) = &theirs.primary_id {
+        layers.push(Layer::agreement(
+            "primary.id",
+            &masks.everywhere,
+            id,
+            &primary.id,
+        ));
+    }
+    if let Some(position) = channels.positions("primary.position.")? {
+        let rounded = rounding(channels, "primary.position.", extent(&position));
+        let limit = limits::PRIMARY_POSITION.widened(rounded);
+        let off = apart(&position, &primary.position);
+        layers.push(Layer::distance(
+            "primary.position",
+            &masks.same_primary,
+            &off,
+            limit,
+        ));
+    }
+    if let Some(normal) = channels.positions("primary.normal.")? {
+        let limit = limits::PRIMARY_NORMAL.widened(rounding(channels, "primary.normal.", 1.0));
+        let pairs = normal.pixels().iter().zip(primary.normal.pixels());
+        let off = pairs.map(|(a, b)| a.distance(*b).min(a.distance(-*b)));
+        let off = Image::from_vec(normal.size(), off.collect());
+        layers.push(Layer::distance(
+            "primary.normal",
+            &masks.same_mirror,
+            &off,
+            limit,
+        ));
+    }
+    if let Some(direction) = channels.positions("reflected.direction.")? {
+        let limit = limits::DIRECTION.widened(rounding(channels, "reflected.direction.", 1.0));
+        let off = apart(&direction, &ours.direction);
+        layers.push(Layer::distance(
+            "reflected.direction",
+            &masks.mirror,
+            &off,
+            limit,
+        ));
+    }
+    if let Some(status) = &theirs.status {
+        layers.push(Layer::agreement(
+            "reflected.status",
+            &masks.same_mirror,
+            status,
+            &reflected.status,
+        ));
+    }
+    if let Some(id) = &theirs.reflected_id {
+        layers.push(Layer::agreement(
+            "reflected.id",
+            &masks.mirror,
+            id,
+            &reflected.id,
+        ));
+    }
+    if let Some(bounces) = theirs
+        .bounces
+        .as_ref()
+        .filter(|_| reflected.bounces.is_some())
+    {
+        layers.push(Layer::agreement(
+            "bounces",
+            &masks.mirror,
+            bounces,
+            &masks.bounces,
+        ));
+    }
+    let limit = limits::reflected(ours.start);
+    if let Some(position) = channels.positions("reflected.position.")? {
+        let limit = limit.widened(rounding(channels, "reflected.position.", extent(&position)));
+        let mut off = apart(&position, &reflected.position);
+        layers.push(Layer::distance(
+            "reflected.position",
+            &masks.after_one,
+            &off,
+            limit,
+        ));
+        if masks.after_more.contains(&true) {
+            for (off, bounces) in off.pixels_mut().iter_mut().zip(masks.bounces.pixels()) {
+                *off /= limits::MAGNIFICATION.powi(*bounces as i32 - 1) as f32;
+            }
+            layers.push(Layer::distance(
+                "reflected.position 2+",
+                &masks.after_more,
+                &off,
+                limit,
+            ));
+        }
+    }
+    if let Some(distances) = channels.numbers("reflected.distance")? {
+        let extent = distances
+            .pixels()
+            .iter()
+            .fold(0.0f32, |most, t| most.max(t.abs()));
+        let limit = limit.widened(rounding(channels, "reflected.distance", extent));
+        let pairs = distances.pixels().iter().zip(reflected.distance.pixels());
+        let off = pairs.map(|(theirs, ours)| (theirs - ours).abs()).collect();
+        let off = Image::from_vec(distances.size(), off);
+        layers.push(Layer::distance(
+            "reflected.distance",
+            &masks.after_one,
+            &off,
+            limit,
+        ));
+    }
+    if let Some(colors) = channels.colors("")? {
+        layers.extend(color_layers(channels, &colors, ours, &masks));
+    }
+    let is_mirror = |status: &&Status| **status != Status::NotMirror;
+    Ok(Measured {
+        layers,
+        mirror_pixels: reflected.status.pixels().iter().filter(is_mirror).count(),
+        apart: masks.apart,
+    })
+}
+
+/// How far 16-bit samples of this size may be rounded; 0 for 32-bit ones.
+fn rounding(channels: &Channels, prefix: &str, extent: f32) -> f64 {
+    if channels.half(prefix) {
+        f64::from(extent) / 2048.0
+    } else {
+        0.0
+    }
+}
+
+fn extent(image: &Image<Vec3>) -> f32 {
+    let largest = |most: f32, pixel: &Vec3| most.max(pixel.abs().max_element());
+    image.pixels().iter().fold(0.0, largest)
+}
+
+fn apart(theirs: &Image<Vec3>, ours: &Image<Vec3>) -> Image<f32> {
+    let pairs = theirs.pixels().iter().zip(ours.pixels());
+    Image::from_vec(theirs.size(), pairs.map(|(a, b)| a.distance(*b)).collect())
+}
+
+/// Colours of what is seen after at most one reflection and, where there are such, after more.
+fn color_layers(
+    channels: &Channels,
+    theirs: &Image<Vec3>,
+    ours: &Ours,
+    masks: &Masks,
+) -> Vec<Layer> {
+    let rounded = ["R", "G", "B"].map(|name| rounding(channels, name, color::largest(theirs)));
+    let limit = limits::color(ours.start);
+    let within = limit.within + rounded.into_iter().fold(0.0, f64::max);
+    let off = apart(theirs, &ours.color);
+    let beyond = color::beyond(theirs, &ours.color, ours.side);
+    let of = |name, mask: &[bool], least| Layer::color(name, mask, &off, &beyond, within, least);
+    let mut layers = vec![of("R G B", &masks.shallow, limit.agree)];
+    if masks.deep.contains(&true) {
+        layers.push(of("R G B 2+", &masks.deep, limit.agree_deep));
+    }
+    layers
+}

@@ -62,7 +62,7 @@ pub enum Command {
         /// What reflected rays see
         #[arg(long, value_enum, default_value_t)]
         truth: TruthArg,
-        /// Samples a pixel; more than 1 averages colour only
+        /// Samples a pixel, a square number: a regular grid, averaged in colour only
         #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=4096))]
         samples: u32,
     },

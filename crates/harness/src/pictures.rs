@@ -23,6 +23,13 @@ pub fn reference(
     common: &Common,
 ) -> anyhow::Result<Outcome> {
     let path = target(common)?;
+    let side = samples.isqrt();
+    if side * side != samples {
+        return Err(bad_input(format!(
+            "--samples {samples} is no regular grid in a pixel: give a square number, such as {}",
+            (side + 1) * (side + 1)
+        )));
+    }
     let scene = open(name, common)?;
     let size = pipeline::size(&scene);
     check_size(size, LONGEST_SIDE, "the reference")?;
@@ -36,8 +43,6 @@ pub fn reference(
             bounces: common.bounces,
         },
     };
-    // The tracer wants samples along each side of a pixel.
-    let side = f64::from(samples).sqrt().ceil() as u32;
     let frame = tracer.render(&RenderOptions {
         size,
         truth,

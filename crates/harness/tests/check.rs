@@ -138,7 +138,7 @@ fn two_swapped_colours_are_noticed() {
         "color = [0.0, 0.0, 0.0]",
         ring,
     );
-    is_noticed(&folder, "sphere", "R G B");
+    is_noticed(&folder, "sphere", "R G B per surface");
 }
 
 #[test]
@@ -166,6 +166,70 @@ fn any_renderers_picture_can_be_checked() {
         let other = catoptric(&["check", picture, "--scene", "sphere-square", "-o", maps]);
         assert_eq!(code(&other), 1);
     }
+}
+
+#[test]
+fn fewer_layers_and_half_floats_are_enough() {
+    use exr::prelude::*;
+    let folder = tempfile::tempdir().expect("a folder");
+    let whole = folder.path().join("whole.exr");
+    let maps = folder.path().join("maps");
+    let render = [
+        "reference",
+        "sphere-square",
+        "--resolution",
+        "40x32",
+        "-o",
+        text(&whole),
+    ];
+    assert_eq!(code(&catoptric(&render)), 0);
+    let frame = catoptric_frame::Frame::read_exr(&whole).expect("a picture");
+    let (primary, reflected) = (
+        frame.primary.expect("layers"),
+        frame.reflected.expect("layers"),
+    );
+    let check = |name: &str, shift: f32| {
+        let picture = folder.path().join(name);
+        let channel = |axis: usize| {
+            let pixels = frame.color.pixels().iter();
+            FlatSamples::F16(pixels.map(|color| f16::from_f32(color[axis])).collect())
+        };
+        let position = |axis: usize| {
+            let pixels = reflected.position.pixels().iter();
+            FlatSamples::F16(pixels.map(|at| f16::from_f32(at[axis] + shift)).collect())
+        };
+        let ids = |image: &catoptric_frame::Image<u32>| FlatSamples::U32(image.pixels().to_vec());
+        let list: SmallVec<[AnyChannel<FlatSamples>; 4]> = [
+            ("R", channel(0)),
+            ("G", channel(1)),
+            ("B", channel(2)),
+            ("primary.id", ids(&primary.id)),
+            ("reflected.id", ids(&reflected.id)),
+            ("reflected.position.X", position(0)),
+            ("reflected.position.Y", position(1)),
+            ("reflected.position.Z", position(2)),
+        ]
+        .into_iter()
+        .map(|(name, samples)| AnyChannel::new(name, samples))
+        .collect();
+        let image = Image::from_channels((40, 32), AnyChannels::sort(list));
+        image.write().to_file(&picture).expect("written");
+        let args = [
+            "check",
+            text(&picture),
+            "--scene",
+            "sphere-square",
+            "-o",
+            text(&maps),
+        ];
+        let output = catoptric(&args);
+        (code(&output), stdout(&output).to_owned())
+    };
+    let (code, table) = check("half.exr", 0.0);
+    assert_eq!(code, 0, "{table}");
+    assert!(table.contains("reflected.position") && !table.contains("primary.position"));
+    let (code, table) = check("shifted.exr", 0.01);
+    assert_eq!(code, 1, "{table}");
 }
 
 #[test]

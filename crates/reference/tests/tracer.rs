@@ -3,7 +3,7 @@
 mod common;
 
 use catoptric_frame::Status;
-use catoptric_reference::{ReferenceError, RenderOptions, Surface, Tracer, Truth};
+use catoptric_reference::{RayStart, ReferenceError, RenderOptions, Surface, Tracer, Truth};
 use catoptric_scene::{Background, Mesh, Paint, Scene, Shape};
 use common::*;
 use glam::{DVec2, DVec3, Vec3};
@@ -212,6 +212,45 @@ fn facing_planes_bounce_a_known_number_of_times() {
             assert!((f64::from(*reflected.distance.at(0, 0)) - 2.0 * step).abs() < 1e-5);
         }
     }
+}
+
+#[test]
+fn a_ray_from_mitsubas_start_is_moved_by_its_offset() {
+    let scene = Scene {
+        mirrors: scene(
+            camera([0.6, 0.5, 4.0], 34.0, [64, 64]),
+            vec![],
+            vec![plane([0.0, 0.0, -2.0], [0.0, 0.0, 1.0])],
+        )
+        .mirrors,
+        ..walls()
+    };
+    let view = scene.camera.view([64, 64]);
+    let tracer = |start| Tracer::new(&scene).unwrap().with_ray_start(start);
+    let (exact, moved) = (tracer(RayStart::Exact), tracer(RayStart::Mitsuba));
+    let mut compared = 0;
+    for at in 0..64 * 64 {
+        let at = DVec2::new(f64::from(at % 64), f64::from(at / 64)) + 0.5;
+        let [a, b] = [&exact, &moved].map(|tracer| tracer.reflect_pixel(&view, at, FIRST));
+        let (Some(from), Some(a), Some(b)) = (a.primary, a.reflection, b.reflection) else {
+            continue;
+        };
+        let (Some(a_hit), Some(b_hit)) = (a.hit, b.hit) else {
+            continue;
+        };
+        if a_hit.surface == b_hit.surface || a_hit.id == b_hit.id {
+            // (1 + max |P|) · 1500 · 2⁻²⁴ along the mirror's normal, carried along the ray to the
+            // same plane.
+            let offset = (1.0 + from.position.abs().max_element()) * 1500.0 / 2f64.powi(24);
+            let start = from.position + DVec3::Z * offset;
+            let t = (a_hit.position - start).dot(a_hit.normal) / a.direction.dot(a_hit.normal);
+            let expected = start + t * a.direction;
+            assert!(b_hit.position.distance(expected) < 1e-9, "{at}");
+            assert!((b_hit.t - b_hit.position.distance(from.position)).abs() < 1e-12);
+            compared += 1;
+        }
+    }
+    assert!(compared > 100, "{compared}");
 }
 
 #[test]

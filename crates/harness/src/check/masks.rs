@@ -14,7 +14,11 @@ pub struct Masks {
     pub same_mirror: Vec<bool>,
     /// And its front, and reflect into the scene.
     pub mirror: Vec<bool>,
-    /// And meet the same surface after one reflection.
+    /// Those of `mirror` with one reflection.
+    pub mirror_once: Vec<bool>,
+    /// Those of `mirror` with more.
+    pub mirror_more: Vec<bool>,
+    /// Both meet the same surface after one reflection.
     pub after_one: Vec<bool>,
     /// Likewise after as many reflections, more than one.
     pub after_more: Vec<bool>,
@@ -67,6 +71,8 @@ impl Masks {
             same_primary: mask(&same_primary),
             same_mirror: mask(&same_mirror),
             mirror: mask(&mirror),
+            mirror_once: mask(&|at| mirror(at) && reflections(at) <= 1),
+            mirror_more: mask(&|at| mirror(at) && reflections(at) > 1),
             after_one: mask(&|at| same_reflected(at) && reflections(at) == 1),
             after_more: mask(&|at| same_reflected(at) && reflections(at) > 1),
             shallow: mask(&|at| !below(at) && reflections(at) <= 1),

@@ -1,6 +1,7 @@
 //! Layer by layer: how far a picture is from what our tracer sees.
 
 use catoptric_frame::{Channels, Frame, FrameError, Image, Primary, Reflected, Status};
+use catoptric_metrics::stats::percentile;
 use catoptric_reference::{RayStart, RenderOptions, Tracer, Truth};
 use catoptric_scene::Scene;
 use glam::{DVec2, Vec3};
@@ -117,19 +118,22 @@ pub fn measure(channels: &Channels, ours: &Ours) -> Result<Measured, FrameError>
     let theirs = Theirs::new(channels)?;
     let (primary, reflected) = (&ours.primary, &ours.reflected);
     let masks = Masks::new(&theirs, primary, reflected);
+    let scale = (median_reach(&primary.position, &masks.same_mirror) / limits::REACH).max(1.0);
     let mut layers = Vec::new();
 
     if let Some(id) = &theirs.primary_id {
+        let (ours, mask) = (&primary.id, &masks.everywhere);
         layers.push(Layer::agreement(
             "primary.id",
-            &masks.everywhere,
+            mask,
             id,
-            &primary.id,
+            ours,
+            limits::AGREE,
         ));
     }
     if let Some(position) = channels.positions("primary.position.")? {
         let rounded = rounding(channels, "primary.position.", extent(&position));
-        let limit = limits::PRIMARY_POSITION.widened(rounded);
+        let limit = limits::PRIMARY_POSITION.scaled(scale).widened(rounded);
         let off = apart(&position, &primary.position);
         layers.push(Layer::distance(
             "primary.position",
@@ -161,34 +165,38 @@ pub fn measure(channels: &Channels, ours: &Ours) -> Result<Measured, FrameError>
         ));
     }
     if let Some(status) = &theirs.status {
+        let (ours, mask) = (&reflected.status, &masks.same_mirror);
         layers.push(Layer::agreement(
             "reflected.status",
-            &masks.same_mirror,
+            mask,
             status,
-            &reflected.status,
+            ours,
+            limits::AGREE,
         ));
     }
+    let agree_deep = limits::agree_deep(ours.start);
     if let Some(id) = &theirs.reflected_id {
-        layers.push(Layer::agreement(
-            "reflected.id",
-            &masks.mirror,
-            id,
-            &reflected.id,
-        ));
+        let of =
+            |name, mask: &[bool], least| Layer::agreement(name, mask, id, &reflected.id, least);
+        layers.push(of("reflected.id", &masks.mirror_once, limits::AGREE));
+        if masks.mirror_more.contains(&true) {
+            layers.push(of("reflected.id 2+", &masks.mirror_more, agree_deep));
+        }
     }
     if let Some(bounces) = theirs
         .bounces
         .as_ref()
         .filter(|_| reflected.bounces.is_some())
     {
-        layers.push(Layer::agreement(
-            "bounces",
-            &masks.mirror,
-            bounces,
-            &masks.bounces,
-        ));
+        let of = |name, mask: &[bool], least| {
+            Layer::agreement(name, mask, bounces, &masks.bounces, least)
+        };
+        layers.push(of("bounces", &masks.mirror_once, limits::AGREE));
+        if masks.mirror_more.contains(&true) {
+            layers.push(of("bounces 2+", &masks.mirror_more, agree_deep));
+        }
     }
-    let limit = limits::reflected(ours.start);
+    let limit = limits::reflected(ours.start).scaled(scale);
     if let Some(position) = channels.positions("reflected.position.")? {
         let limit = limit.widened(rounding(channels, "reflected.position.", extent(&position)));
         let mut off = apart(&position, &reflected.position);
@@ -237,6 +245,20 @@ pub fn measure(channels: &Channels, ours: &Ours) -> Result<Measured, FrameError>
     })
 }
 
+/// 1 + the largest coordinate of the points within a mask, in the median; 0 where there are none.
+fn median_reach(positions: &Image<Vec3>, mask: &[bool]) -> f64 {
+    let kept = positions
+        .pixels()
+        .iter()
+        .zip(mask)
+        .filter(|(_, kept)| **kept);
+    let mut reaches: Vec<f64> = kept
+        .map(|(position, _)| 1.0 + f64::from(position.abs().max_element()))
+        .collect();
+    reaches.sort_by(f64::total_cmp);
+    percentile(&reaches, 0.5).unwrap_or(0.0)
+}
+
 /// How far 16-bit samples of this size may be rounded; 0 for 32-bit ones.
 fn rounding(channels: &Channels, prefix: &str, extent: f32) -> f64 {
     if channels.half(prefix) {
@@ -271,7 +293,27 @@ fn color_layers(
     let of = |name, mask: &[bool], least| Layer::color(name, mask, &off, &beyond, within, least);
     let mut layers = vec![of("R G B", &masks.shallow, limit.agree)];
     if masks.deep.contains(&true) {
-        layers.push(of("R G B 2+", &masks.deep, limit.agree_deep));
+        layers.push(of("R G B 2+", &masks.deep, limits::agree_deep(ours.start)));
     }
+    layers.push(Layer::surfaces(
+        "R G B per surface",
+        &masks.shallow,
+        &seen(ours),
+        &beyond,
+        within,
+    ));
     layers
+}
+
+/// Id of the surface that each pixel shows: on a mirror that which is reflected.
+fn seen(ours: &Ours) -> Image<u32> {
+    let primary = ours.primary.id.pixels().iter();
+    let reflected = ours.reflected.id.pixels().iter();
+    let status = ours.reflected.status.pixels().iter();
+    let pixels = primary.zip(reflected).zip(status);
+    let shown = pixels.map(|((primary, reflected), status)| match status {
+        Status::Resolved => *reflected,
+        _ => *primary,
+    });
+    Image::from_vec(ours.primary.id.size(), shown.collect())
 }

@@ -35,7 +35,8 @@ pub(crate) struct Maps {
 pub(crate) fn objection(shape: &Shape) -> Option<&'static str> {
     match shape {
         Shape::Sphere { .. } | Shape::Ellipsoid { .. } => None,
-        Shape::Plane { .. } => Some("is open, and needs to be closed"),
+        Shape::Plane { .. } | Shape::Saddle { .. } => Some("is open, and needs to be closed"),
+        Shape::Torus { .. } => Some("is not seen whole from its centre, as a cube map needs"),
         Shape::Bowl { .. } => {
             Some("is concave, where the bisector need not lead to the reflection point")
         }

@@ -12,7 +12,7 @@ mod pictures;
 
 use crate::plot::{Axis, Scale};
 
-use super::{Ask, Figure, Point, Quantity, Quote, Series, Suite};
+use super::{Ask, Figure, Point, Quantity, Quote, Results, Series, Suite};
 
 /// The suite.
 pub const SUITE: Suite = Suite {
@@ -82,18 +82,21 @@ const JITTER_MEAN: &str = "temporal.jitter_px.mean";
 const JITTER_MAX: &str = "temporal.jitter_px.max";
 const JUMPS: &str = "temporal.jumps";
 
+/// What came out, in sentences.
+type Analysis = fn(&Results<'_>) -> Vec<String>;
+
 /// On what the thesis measured.
 const THESIS: &str = "Core 2 Duo, GTX 260";
 
 fn figures(scene: Option<&str>) -> Vec<Figure> {
     if let Some(scene) = scene {
         return vec![
-            objects(&[(scene, scene)], Vec::new()),
+            objects(&[(scene, scene)], Vec::new(), claims::scene),
             motion(&[(scene, scene)]),
         ];
     }
     vec![
-        objects(&CASES, quotes()),
+        objects(&CASES, quotes(), claims::objects),
         growth(
             "vertices",
             "Cost against the number of vertices",
@@ -134,7 +137,7 @@ fn names(scenes: &[(&str, &str)]) -> Axis {
 }
 
 /// Fig. 4.3.
-fn objects(scenes: &[(&str, &str)], quotes: Vec<Quote>) -> Figure {
+fn objects(scenes: &[(&str, &str)], quotes: Vec<Quote>, analysis: Analysis) -> Figure {
     Figure {
         anchor: "objects",
         title: "Both searches, with and without repairs".to_owned(),
@@ -148,7 +151,7 @@ fn objects(scenes: &[(&str, &str)], quotes: Vec<Quote>) -> Figure {
         series: series(scenes, Point::shown),
         quantities: quantities(Quantity::linear),
         quotes,
-        analysis: claims::objects,
+        analysis,
     }
 }
 
@@ -201,7 +204,7 @@ fn growth(
     after: &'static str,
     question: &str,
     family: &str,
-    analysis: fn(&super::Results<'_>) -> Vec<String>,
+    analysis: Analysis,
 ) -> Figure {
     let series = |(label, technique): &(&str, &str)| Series {
         label: (*label).to_owned(),

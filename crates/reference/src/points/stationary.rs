@@ -244,7 +244,8 @@ impl<P: Patch> Way<'_, P> {
             }
             residual = now;
             let next = q - here.hessian.inverse() * here.gradient;
-            if !((next - start).length() <= 2.0 * radius) {
+            let moved = (next - start).length();
+            if moved.is_nan() || moved > 2.0 * radius {
                 return None;
             }
             q = next;

@@ -97,7 +97,9 @@ fn shape(series: usize, x: f64, y: f64) -> String {
 /// Sets the legend under the drawing, as many entries a line as fit, and returns its height.
 fn legend(plot: &Plot, body: &mut String) -> u32 {
     let (mut x, mut line) = (14, 0);
-    for (series, label) in plot.series.iter().map(|series| &series.label).enumerate() {
+    let named = plot.series.iter().enumerate();
+    let named = named.filter(|(_, series)| !series.points.is_empty());
+    for (series, label) in named.map(|(place, series)| (place, &series.label)) {
         let width = 30 + CHARACTER * label.chars().count() as u32;
         if x > 14 && x + width > WIDTH {
             (x, line) = (14, line + 1);

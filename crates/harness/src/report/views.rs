@@ -196,7 +196,11 @@ fn cells(row: &Record) -> Vec<String> {
                 .map(|offset| offset.mean),
         ),
         or_dash(row.color.map(|color| color.flip)),
-        or_dash(row.work.and_then(|work| work.evaluations)),
+        or_dash(
+            row.work
+                .filter(|_| row.vertices.is_some())
+                .and_then(|work| work.evaluations),
+        ),
         time.unwrap_or_else(|| "–".to_owned()),
     ]
 }

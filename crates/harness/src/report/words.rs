@@ -204,10 +204,12 @@ fn cost(row: &Record) -> Option<String> {
         .work
         .and_then(|work| work.evaluations)
         .map_or_else(String::new, |evaluations| {
-            format!(
-                " Each searched vertex takes {} evaluations of the error function on average.",
-                short(evaluations)
-            )
+            let one = match row.vertices {
+                Some(_) => "searched vertex takes {} evaluations of the error function",
+                None => "mirror pixel takes {} evaluations",
+            };
+            let one = one.replace("{}", &short(evaluations));
+            format!(" Each {one} on average.")
         });
     let Some(frame) = times.frame else {
         return Some(format!(
@@ -298,8 +300,8 @@ pub fn noise_floor(rows: &[Record]) -> Option<String> {
         )
     });
     Some(format!(
-        "The control, the reference's rays traced on the graphics adapter, shows the right object on {} of the \
-         mirror pixels or more{angle}: differences below that are the measurement's own noise.",
+        "The control, the reference's rays traced on the graphics adapter, shows the right object on at least {} \
+         of the mirror pixels of a scene{angle}: differences below that are the measurement's own noise.",
         percent(agreement)
     ))
 }

@@ -19,6 +19,8 @@ const GOLDENS: &[(&str, &str)] = &[
     ("sphere-table", "linear(gbuffer=mesh,under=dark)"),
     ("planar", "planar"),
     ("ellipsoid", "ray-trace"),
+    ("ellipsoid", "environment-map(size=64)"),
+    ("bowl", "cubemap-trace(size=64,accept=continuous,bounces=3)"),
 ];
 
 const SIZE: &str = "56x42";

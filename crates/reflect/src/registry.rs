@@ -420,7 +420,14 @@ const CUBEMAP_TRACE: &[OptionInfo] = &[
     ),
     words(
         "unresolved",
-        &["mark", "environment", "background", "neighbours", "best"],
+        &[
+            "mark",
+            "environment",
+            "background",
+            "neighbours",
+            "best",
+            "trace",
+        ],
         "what a pixel shows that no map resolves",
     ),
 ];

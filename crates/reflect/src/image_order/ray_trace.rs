@@ -26,13 +26,16 @@ use crate::technique::Variant;
 /// Side of a workgroup in pixels.
 const GROUP: u32 = 8;
 
-struct RayTrace {
+/// The pass `trace`, for all mirror pixels or for those that another technique leaves open.
+pub(crate) struct RayTrace {
     layout: wgpu::BindGroupLayout,
     trace: wgpu::ComputePipeline,
     counting: wgpu::ComputePipeline,
     hierarchy: Hierarchy,
     /// Nodes and triangles tested, a pair of `u32` a pixel.
     counts: wgpu::Buffer,
+    /// Colours of a technique before, −1 in w where it has no answer; all others are left alone.
+    left_open: Option<wgpu::TextureView>,
     group: wgpu::BindGroup,
 }
 
@@ -48,18 +51,29 @@ pub(crate) fn make(
     _options: &Options,
     stage: &Stage,
 ) -> Result<Box<dyn ImageOrder>, ReflectError> {
-    Ok(Box::new(RayTrace::new(gpu, stage)?))
+    Ok(Box::new(RayTrace::new(gpu, stage, None)?))
 }
 
 impl RayTrace {
-    fn new(gpu: &Gpu, stage: &Stage) -> Result<Self, ReflectError> {
-        let slots = [
+    /// `left_open`: only where this image has −1 in w.
+    pub(crate) fn new(
+        gpu: &Gpu,
+        stage: &Stage,
+        left_open: Option<&wgpu::Texture>,
+    ) -> Result<Self, ReflectError> {
+        let left_open = left_open.map(view);
+        let mut slots = vec![
             Slot::Read,
             Slot::Read,
             Slot::Image,
             Slot::Image,
             Slot::Write,
         ];
+        let mut features = Vec::new();
+        if left_open.is_some() {
+            slots.push(Slot::Texture);
+            features.push("fallback");
+        }
         let layout = layout(gpu, "ray trace", &slots);
         let pipeline = |features: &[&str]| -> Result<_, ReflectError> {
             let layouts = [
@@ -74,10 +88,13 @@ impl RayTrace {
         let [width, height] = stage.world.size.map(u64::from);
         let counts = storage_zeros(gpu, width * height * 8);
         let hierarchy = Hierarchy::new(gpu, &stage.world.scene)?;
+        let trace = pipeline(&features)?;
+        features.push("count");
         Ok(Self {
-            trace: pipeline(&[])?,
-            counting: pipeline(&["count"])?,
-            group: bind(gpu, &layout, &hierarchy, stage, &counts),
+            trace,
+            counting: pipeline(&features)?,
+            group: bind(gpu, &layout, &hierarchy, stage, &counts, left_open.as_ref()),
+            left_open,
             layout,
             hierarchy,
             counts,
@@ -91,16 +108,18 @@ fn bind(
     hierarchy: &Hierarchy,
     stage: &Stage,
     counts: &wgpu::Buffer,
+    left_open: Option<&wgpu::TextureView>,
 ) -> wgpu::BindGroup {
     let color = view(&stage.reflections.color);
     let position = view(&stage.reflections.position);
-    let resources = [
+    let mut resources = vec![
         hierarchy.nodes.as_entire_binding(),
         hierarchy.triangles.as_entire_binding(),
         wgpu::BindingResource::TextureView(&color),
         wgpu::BindingResource::TextureView(&position),
         counts.as_entire_binding(),
     ];
+    resources.extend(left_open.map(wgpu::BindingResource::TextureView));
     group(gpu, layout, &resources)
 }
 
@@ -148,7 +167,15 @@ impl ImageOrder for RayTrace {
     /// Builds the hierarchy anew: any object may have moved.
     fn update(&mut self, gpu: &Gpu, stage: &Stage) -> Result<(), ReflectError> {
         self.hierarchy = Hierarchy::new(gpu, &stage.world.scene)?;
-        self.group = bind(gpu, &self.layout, &self.hierarchy, stage, &self.counts);
+        let left_open = self.left_open.as_ref();
+        self.group = bind(
+            gpu,
+            &self.layout,
+            &self.hierarchy,
+            stage,
+            &self.counts,
+            left_open,
+        );
         Ok(())
     }
 
@@ -210,7 +237,7 @@ mod tests {
         let spec = parse("ray-trace").expect("a technique");
         let scene = scene("sphere-square");
         let stage = Stage::new(&gpu, &spec.options, &scene, [96, 72]).expect("fits the device");
-        let technique = RayTrace::new(&gpu, &stage).expect("fits the device");
+        let technique = RayTrace::new(&gpu, &stage, None).expect("fits the device");
         let before = ids(&gpu, &technique, &stage);
         assert!(before.contains(&1), "the square is reflected");
         assert_eq!(before, ids(&gpu, &technique, &stage));

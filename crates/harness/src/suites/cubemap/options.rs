@@ -157,7 +157,7 @@ fn pyramids(scenes: &[&str]) -> Figure {
     }
 }
 
-const UNRESOLVED_AS: [(&str, &str); 5] = [
+const UNRESOLVED_AS: [(&str, &str); 6] = [
     ("marked", "objects=1,accept=continuous,unresolved=mark"),
     (
         "environment",
@@ -172,6 +172,7 @@ const UNRESOLVED_AS: [(&str, &str); 5] = [
         "objects=1,accept=continuous,unresolved=neighbours",
     ),
     ("best", "objects=1,accept=continuous,unresolved=best"),
+    ("ray trace", "objects=1,accept=continuous,unresolved=trace"),
 ];
 
 fn unresolved(scenes: &[&str]) -> Figure {
@@ -180,7 +181,7 @@ fn unresolved(scenes: &[&str]) -> Figure {
         "What pixels show that no map resolves",
         "Číž 2017, Fig. 3.10 and section 3.9",
         "One map only, so that there are such pixels: a mark, an environment map, the background, the \
-         nearest resolved pixels, or the texel that came nearest to a hit.",
+         nearest resolved pixels, the texel that came nearest to a hit, or the ray tracer.",
     );
     values(figure, "filling", &UNRESOLVED_AS, scenes)
 }

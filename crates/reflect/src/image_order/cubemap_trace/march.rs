@@ -38,7 +38,8 @@ pub(crate) fn features(options: &Options) -> Vec<&'static str> {
     on("best", options.is("unresolved", "best"));
     on("background", options.is("unresolved", "background"));
     on("environment", options.is("unresolved", "environment"));
-    on("later", options.is("unresolved", "neighbours"));
+    let later = ["neighbours", "trace"];
+    on("later", later.contains(&options.text("unresolved")));
     features
 }
 

@@ -129,7 +129,9 @@ pub(crate) fn make(
         let maps = MirrorMaps::new(gpu, pyramid, &trace, stage, wanted, &own_layout)?;
         mirrors.push(maps);
     }
-    let fill = (options.is("unresolved", "neighbours")).then(|| Fill::new(gpu, stage));
+    let trace_left = options.is("unresolved", "trace");
+    let fill = (trace_left || options.is("unresolved", "neighbours"))
+        .then(|| Fill::new(gpu, stage, trace_left));
     let effort = target(gpu, "effort", stage.world.size, FLOAT4);
     let tracer = if options.is("stage", "compute") {
         Tracer::Compute(Lanes::new(gpu, options, stage, &own_layout, &effort)?)
@@ -197,8 +199,9 @@ impl CubemapTrace {
 
 impl ImageOrder for CubemapTrace {
     /// Maps stay where they were placed; drawn in every frame, they show what moved.
-    fn update(&mut self, _: &Gpu, _: &Stage) -> Result<(), ReflectError> {
-        Ok(())
+    fn update(&mut self, gpu: &Gpu, stage: &Stage) -> Result<(), ReflectError> {
+        let fill = self.fill.as_mut();
+        fill.map_or(Ok(()), |fill| fill.update(gpu, stage))
     }
 
     fn record(&self, frame: &mut Recorder<'_>, stage: &Stage, variant: Variant) {

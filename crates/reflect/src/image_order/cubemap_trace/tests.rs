@@ -121,7 +121,7 @@ fn a_pixel_that_no_map_resolves_is_filled() {
     assert!(before > 0);
     assert_eq!(marked, before);
     assert_eq!(left("background"), (before, before));
-    for filling in ["environment", "best"] {
+    for filling in ["environment", "best", "trace"] {
         assert_eq!(left(filling), (before, 0), "{filling}");
     }
     let (same, neighbours) = left("neighbours");

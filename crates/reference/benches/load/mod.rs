@@ -67,15 +67,25 @@ pub fn balls() -> Scene {
     }
 }
 
-/// The built-in scene `sponza-ball`, where the folder that `CATOPTRIC_MODELS` names has its model.
+/// The atrium of the built-in scene `sponza-ball`, without what else stands in it, along its axis
+/// and in a larger ball; where the folder that `CATOPTRIC_MODELS` names has its model.
 pub fn sponza() -> Option<Scene> {
     let options = LoadOptions {
         models: std::env::var_os("CATOPTRIC_MODELS").map(PathBuf::from),
         resolution: Some([640, 480]),
     };
-    catoptric_scene::open("sponza-ball", &options)
+    let mut scene = catoptric_scene::open("sponza-ball", &options)
         .inspect_err(|error| eprintln!("left out: {error}"))
-        .ok()
+        .ok()?;
+    scene.objects.truncate(1);
+    scene.camera.eye = DVec3::new(-11.0, 2.0, 0.0);
+    scene.camera.target = DVec3::new(5.0, 4.0, 0.0);
+    scene.camera.fov = Fov::X(70.0);
+    scene.mirrors[0].shape = Shape::Sphere {
+        center: DVec3::new(-7.4, 2.1, 0.3),
+        radius: 1.5,
+    };
+    Some(scene)
 }
 
 /// Origin and unit direction.

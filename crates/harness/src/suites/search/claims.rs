@@ -362,8 +362,8 @@ pub fn motion(results: &Results<'_>) -> Vec<String> {
         let verdict = match most <= ABOUT_EQUAL {
             true => "moving scenes cost nothing extra, as claimed",
             false => {
-                "not every search keeps the claim that moving scenes cost nothing extra; one that starts \
-                      from the previous frame's answers has more to do when they move"
+                "a moving frame of one search or another took longer, where the claim is that moving scenes cost \
+                 nothing extra; the counted steps tell whether it has more to do or was disturbed"
             }
         };
         sentences.push(format!(

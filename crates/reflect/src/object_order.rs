@@ -71,9 +71,10 @@ impl Technique for ObjectOrder {
     }
 
     fn record(&self, frame: &mut Recorder<'_>, variant: Variant) {
+        // First of all, so that the clock of no later pass waits for it (`timing`).
+        Raster::record_clear(frame, &self.stage, variant);
         self.stage.begin(frame, variant);
         self.search.record_build(frame, &self.stage);
-        Raster::record_clear(frame, &self.stage, variant);
         for mirror in 0..self.stage.world.mirrors.len() {
             let search = self.search.as_ref();
             self.refine

@@ -25,6 +25,7 @@
 //! from timing (reference, layers, comparison) comes on top and grows with the number of scenes.
 
 mod cubemap;
+mod estalella;
 mod figure;
 mod page;
 mod plan;
@@ -63,9 +64,10 @@ pub struct Suite {
 pub type MakePictures = fn(&Studio<'_>) -> anyhow::Result<Vec<Picture>>;
 
 /// Every suite, by name.
-pub const SUITES: [&Suite; 4] = [
+pub const SUITES: [&Suite; 5] = [
     &search::SUITE,
     &tessellation::SUITE,
+    &estalella::SUITE,
     &cubemap::SUITE,
     &cubemap::FULL,
 ];

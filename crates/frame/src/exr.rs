@@ -3,7 +3,7 @@
 //! Written: one part, scanlines, ZIP, every channel 32-bit float (ids and status codes included),
 //! data window = display window. Channel names: `R G B`, `primary.id`, `primary.position.{X,Y,Z}`,
 //! `primary.normal.{X,Y,Z}`, `reflected.id`, `reflected.position.{X,Y,Z}`, `reflected.distance`,
-//! `reflected.status` (the code of [`Status`]) and, under truth `full`, `bounces`. The header text
+//! `reflected.status` (the code of [`crate::Status`]) and, under truth `full`, `bounces`. The header text
 //! `catoptric.ids` lists the ids, one a line: `1 object floor`.
 //!
 //! Read: the same, and what other renderers write: channels in any order, half or unsigned samples,

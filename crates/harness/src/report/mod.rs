@@ -31,11 +31,13 @@ const QUICK_SCENES: [&str; 8] = [
     "sphere-touching",
 ];
 
-/// The published search, the same with the residual that 32 bits can resolve, the mirrored eye for
-/// flat mirrors, and the control.
-const TECHNIQUES: [&str; 4] = [
+/// Both published searches, the linear one also with the residual that 32 bits can resolve, what
+/// games use instead, the mirrored eye for flat mirrors, and the control.
+const TECHNIQUES: [&str; 6] = [
     "linear",
     "linear(residual=cross,neighbours=8)",
+    "ray-hierarchy(repair=enlarge)",
+    "environment-map",
     "planar",
     words::CONTROL,
 ];

@@ -7,6 +7,18 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::FrameError;
 
+/// Replaces the file at `path` by these bytes: it is there whole or not at all. An error names the
+/// path.
+pub fn write_whole(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), FrameError> {
+    let path = path.as_ref();
+    write_atomically(path, |writer| {
+        writer.write_all(bytes).map_err(|source| FrameError::Write {
+            path: path.into(),
+            source,
+        })
+    })
+}
+
 /// Lets `fill` write a temporary file beside `path`, then renames it to `path`. On any error the
 /// temporary file is removed and what was at `path` before is untouched.
 pub(crate) fn write_atomically(

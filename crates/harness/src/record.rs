@@ -271,16 +271,9 @@ impl Record {
 
 /// Replaces the file at `path` by all rows with their raw samples: it is there whole or not at all.
 pub fn write(rows: &[Record], path: &Path) -> anyhow::Result<()> {
-    let folder = match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
-    let unwritable = || format!("cannot write {}", path.display());
-    let mut file = tempfile::NamedTempFile::new_in(folder).with_context(unwritable)?;
-    serde_json::to_writer_pretty(&mut file, rows).with_context(unwritable)?;
-    std::io::Write::write_all(&mut file, b"\n").with_context(unwritable)?;
-    file.persist(path).with_context(unwritable)?;
-    Ok(())
+    let mut text = serde_json::to_vec_pretty(rows)?;
+    text.push(b'\n');
+    Ok(catoptric_frame::write_whole(path, &text)?)
 }
 
 /// What earlier rows must have, so that a record stays readable when fields are added to it.

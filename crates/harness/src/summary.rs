@@ -4,13 +4,13 @@
 use std::path::Path;
 
 use anyhow::Context;
+use catoptric_frame::write_whole;
 use serde_json::Value;
 
 use crate::cli::{Common, Format};
 use crate::exit::{Outcome, bad_input};
 use crate::gate::lookup;
 use crate::print::{self, cell};
-use crate::report::page;
 use crate::{record, setup};
 
 /// Line before the table in a text.
@@ -49,7 +49,7 @@ pub fn run(path: &Path, into: Option<&Path>, common: &Common) -> anyhow::Result<
             "{file}: no line `{BEGIN}` with a line `{END}` after it"
         ))
     })?;
-    page::put(into, &spliced)?;
+    write_whole(into, spliced.as_bytes())?;
     Ok(Outcome::Done)
 }
 

@@ -137,11 +137,12 @@ impl Geometry {
         }
 
         for (index, corners) in self.triangles.iter().enumerate() {
-            let [a, b, c] = corners.map(|corner| merged[corner as usize]);
-            if a == b || b == c || c == a {
+            let merged = corners.map(|corner| merged[corner as usize]);
+            // Also where two corners are one.
+            if mesh.area_vector(&merged) == DVec3::ZERO {
                 continue;
             }
-            mesh.triangles.push(turned([a, b, c], flip));
+            mesh.triangles.push(turned(merged, flip));
             mesh.material
                 .push(self.material.get(index).copied().unwrap_or(0));
             if let Some(normals) = self.normals.get(index) {

@@ -426,6 +426,8 @@ fn written_triangles_and_copies_are_checked() {
     let one = "triangles = [[0, 1, 2]]\n";
     let one = |keys: &str| triangle(&format!("{one}{keys}"));
     let boxed = |keys: &str| format!("shape = \"box\"\n{keys}");
+    let flat = "shape = \"triangles\"\n\
+                positions = [[0, 0, 0], [1, 0, 0], [2, 0, 0]]\ntriangles = [[0, 1, 2]]";
     for (keys, line, part) in [
         (triangle(""), 19, "`triangles` is missing"),
         (
@@ -435,6 +437,7 @@ fn written_triangles_and_copies_are_checked() {
         ),
         (triangle("triangles = [[0, 1]]"), 23, "3 whole numbers"),
         (triangle("triangles = [[0, 1, 1]]"), 19, "mesh is empty"),
+        (flat.to_owned(), 19, "mesh is empty"),
         (
             one("colors = [[1, 1, 1], [0, 0, 0]]"),
             24,

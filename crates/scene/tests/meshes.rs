@@ -35,7 +35,7 @@ const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 #[test]
 fn polygons_become_triangles() {
-    let scene = with_obj(&format!("{SQUARE}v 0 0.5 0\nf 1 2 3 4 5\n"), MESH).unwrap();
+    let scene = with_obj(&format!("{SQUARE}v -0.2 0.5 0\nf 1 2 3 4 5\n"), MESH).unwrap();
     let mesh = &scene.objects[0].mesh;
     assert_eq!((mesh.positions.len(), mesh.triangles.len()), (5, 3));
     assert!(mesh.normals.is_empty() && mesh.uvs.is_empty() && mesh.colors.is_empty());

@@ -1,11 +1,9 @@
 //! Binary PLY files: triangles whose corners share what is bitwise equal.
 
 use std::collections::HashMap;
-use std::io::Write;
 use std::path::Path;
 
-use anyhow::Context;
-use tempfile::NamedTempFile;
+use catoptric_frame::write_whole;
 
 /// Triangles with the same float properties at each corner.
 pub struct Ply {
@@ -72,18 +70,8 @@ impl Ply {
 
     /// Writes the file whole or not at all.
     pub fn write(&self, path: &Path) -> anyhow::Result<()> {
-        write_whole(path, &self.bytes())
+        Ok(write_whole(path, &self.bytes())?)
     }
-}
-
-/// Writes a file whole or not at all.
-pub fn write_whole(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
-    let message = || format!("cannot write {}", path.display());
-    let folder = path.parent().unwrap_or(Path::new("."));
-    let mut file = NamedTempFile::new_in(folder).with_context(message)?;
-    file.write_all(bytes).with_context(message)?;
-    file.persist(path).with_context(message)?;
-    Ok(())
 }
 
 #[cfg(test)]

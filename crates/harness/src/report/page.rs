@@ -1,10 +1,10 @@
 //! The page itself: the record and the names of its pictures in, `index.html` out.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use askama::Template;
+use catoptric_frame::write_whole;
 use catoptric_metrics::CoverageClass;
 
 use crate::record::{Record, Status};
@@ -49,18 +49,8 @@ struct Hero<'r> {
 /// Writes `index.html` into the report's folder.
 pub fn write(rows: &[Record], folder: &Path) -> anyhow::Result<PathBuf> {
     let path = folder.join("index.html");
-    put(&path, &render(rows)?)?;
+    write_whole(&path, render(rows)?.as_bytes())?;
     Ok(path)
-}
-
-/// Replaces a file by this text: it is there whole or not at all.
-pub fn put(path: &Path, text: &str) -> anyhow::Result<()> {
-    let folder = path.parent().unwrap_or(Path::new("."));
-    let unwritable = || format!("cannot write {}", path.display());
-    let mut file = tempfile::NamedTempFile::new_in(folder).with_context(unwritable)?;
-    file.write_all(text.as_bytes()).with_context(unwritable)?;
-    file.persist(path).with_context(unwritable)?;
-    Ok(())
 }
 
 /// The page as text.

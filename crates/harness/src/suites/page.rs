@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use askama::Template;
+use catoptric_frame::write_whole;
 use serde_json::Value;
 
 use crate::cli::Format;
@@ -84,13 +85,14 @@ pub fn write(
         .map(|figure| show(figure, &values, own))
         .collect::<anyhow::Result<Vec<_>>>()?;
     for figure in &shown {
-        page::put(&folder.join(&figure.csv), &figure.table.write(Format::Csv))?;
+        let table = figure.table.write(Format::Csv);
+        write_whole(folder.join(&figure.csv), table.as_bytes())?;
     }
     for (figure, shown) in figures.iter().zip(&shown) {
         let plots = plots(figure, &Results::new(figure, &values));
         for (plot, diagram) in plots.iter().zip(&shown.plots) {
             let file = plot.file()?.unwrap_or_default();
-            page::put(&folder.join(&diagram.path), &file)?;
+            write_whole(folder.join(&diagram.path), file.as_bytes())?;
         }
     }
     let blanks = rows.iter().filter(|row| row.status != Status::Ok);
@@ -113,7 +115,7 @@ pub fn write(
     };
     let path = folder.join("index.html");
     let html = page.render().context("filling the page's template")?;
-    page::put(&path, &html)?;
+    write_whole(&path, html.as_bytes())?;
     Ok(path)
 }
 

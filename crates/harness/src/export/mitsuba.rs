@@ -16,22 +16,18 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use anyhow::Context;
-use catoptric_frame::{Frame, Image};
+use catoptric_frame::{Frame, Image, write_whole};
 use catoptric_scene::{Background, Fov, Mesh, Mirror, Paint, Scene, Shape, Texture};
 use glam::{DMat3, DVec3, Vec2, Vec3};
 use serde_json::json;
 
-use super::ply::{Ply, write_whole};
+use super::ply::Ply;
 use super::sides::{Viewpoints, visible};
 
 /// What Mitsuba loads.
 pub const SCENE_FILE: &str = "scene.xml";
 /// Ids, names and settings, for the script that renders.
 pub const IDS_FILE: &str = "scene.json";
-
-/// Segments around a curved mirror that has to be a mesh: its triangles then lie within some
-/// 3e-6 of its size from the surface, about as far as f32 would place it.
-const SEGMENTS: u32 = 1024;
 
 /// Rows of the picture of a gradient. Odd, so that one is the horizon, where the gradient bends;
 /// between rows the error is at most (π / 1024)² / 8, times the contrast: 1.2e-6.
@@ -42,8 +38,9 @@ const NEAR: f64 = 1e-3;
 /// Far clipping plane, likewise.
 const FAR: f64 = 1e5;
 
-/// Writes a scene, its meshes and textures; `scene.xml` is there only when all else is.
-pub fn write(scene: &Scene, bounces: u32, folder: &Path) -> anyhow::Result<()> {
+/// Writes a scene, its meshes and textures; `scene.xml` is there only when all else is. A mirror
+/// that is a mesh there only has so many `segments` around it.
+pub fn write(scene: &Scene, bounces: u32, segments: u32, folder: &Path) -> anyhow::Result<()> {
     for part in ["meshes", "textures"] {
         let part = folder.join(part);
         std::fs::create_dir_all(&part)
@@ -51,6 +48,7 @@ pub fn write(scene: &Scene, bounces: u32, folder: &Path) -> anyhow::Result<()> {
     }
     let mut writer = Writer {
         folder,
+        segments,
         xml: String::new(),
         ids: Vec::new(),
         textures: 0,
@@ -77,12 +75,13 @@ pub fn write(scene: &Scene, bounces: u32, folder: &Path) -> anyhow::Result<()> {
         "bounces": bounces,
         "ids": writer.ids,
     });
-    write_whole(&folder.join(IDS_FILE), format!("{ids:#}\n").as_bytes())?;
-    write_whole(&folder.join(SCENE_FILE), writer.xml.as_bytes())
+    write_whole(folder.join(IDS_FILE), format!("{ids:#}\n").as_bytes())?;
+    Ok(write_whole(folder.join(SCENE_FILE), writer.xml.as_bytes())?)
 }
 
 struct Writer<'f> {
     folder: &'f Path,
+    segments: u32,
     xml: String,
     ids: Vec<serde_json::Value>,
     textures: u32,
@@ -327,7 +326,7 @@ impl Writer<'_> {
                 ("rectangle", keys)
             }
             curved => {
-                let mesh = curved.tessellate(SEGMENTS);
+                let mesh = curved.tessellate(self.segments);
                 let mut ply = Ply::new(&["x", "y", "z", "nx", "ny", "nz"]);
                 for (corners, normals) in mesh.triangles.iter().zip(&mesh.normals) {
                     let row = |corner: usize| {

@@ -22,12 +22,9 @@ if [[ ${#names[@]} == 0 ]]; then
 fi
 
 for name in "${names[@]}"; do
-    options=(--bounces 8)
-    case $name in
-        bowl) options=(--bounces 4) ;;
-        torus) options+=(--segments 3072) ;; # a mesh there: its normals are to be as exact as ours
-    esac
-    catoptric export "$here/scenes/$name.toml" --mitsuba "$exports/$name" "${options[@]}"
+    bounces=8
+    [[ $name == bowl ]] && bounces=4
+    catoptric export "$here/scenes/$name.toml" --mitsuba "$exports/$name" --bounces "$bounces"
     hand_written=()
     [[ -f $here/scenes/$name.xml ]] && hand_written=(--xml "$here/scenes/$name.xml")
     "$python" "$here/render.py" "$exports/$name" -o "$here/$name.exr" "${hand_written[@]}"

@@ -109,12 +109,6 @@ pub enum Command {
         /// Folder to write `scene.xml` and what belongs to it into; Mitsuba 3 loads it as it is
         #[arg(long, value_name = "DIR")]
         mitsuba: PathBuf,
-        /// Segments around a curved mirror that Mitsuba has no shape for and gets as a mesh. The
-        /// default lies within some 3e-6 of the mirror's size from it; the error falls with the
-        /// square
-        #[arg(long, value_name = "N", default_value_t = 1024,
-              value_parser = clap::value_parser!(u32).range(8..=8192))]
-        segments: u32,
     },
     /// Compare our tracer with pictures that another renderer made of the same scenes
     Check(CheckArgs),

@@ -64,11 +64,7 @@ fn run(Cli { command, common }: Cli) -> anyhow::Result<Outcome> {
         Command::Report { suite, time_budget } => report::run(suite, time_budget, &common),
         Command::Diff { reference, test } => diff::run(&reference, &test, &common),
         Command::Summary { record, into } => summary::run(&record, into.as_deref(), &common),
-        Command::Export {
-            scene,
-            mitsuba,
-            segments,
-        } => export::run(&scene, &mitsuba, segments, &common),
+        Command::Export { scene, mitsuba } => export::run(&scene, &mitsuba, &common),
         Command::Check(args) => check::run(&args, &common),
         Command::Doctor => doctor::run(&common),
     }

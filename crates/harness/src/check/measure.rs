@@ -164,6 +164,7 @@ pub fn measure(channels: &Channels, ours: &Ours) -> Result<Measured, FrameError>
             limit,
         ));
     }
+    let agree_once = limits::agree_once(ours.start, scale);
     if let Some(status) = &theirs.status {
         let (ours, mask) = (&reflected.status, &masks.same_mirror);
         layers.push(Layer::agreement(
@@ -171,14 +172,14 @@ pub fn measure(channels: &Channels, ours: &Ours) -> Result<Measured, FrameError>
             mask,
             status,
             ours,
-            limits::AGREE,
+            agree_once,
         ));
     }
     let agree_deep = limits::agree_deep(ours.start);
     if let Some(id) = &theirs.reflected_id {
         let of =
             |name, mask: &[bool], least| Layer::agreement(name, mask, id, &reflected.id, least);
-        layers.push(of("reflected.id", &masks.mirror_once, limits::AGREE));
+        layers.push(of("reflected.id", &masks.mirror_once, agree_once));
         if masks.mirror_more.contains(&true) {
             layers.push(of("reflected.id 2+", &masks.mirror_more, agree_deep));
         }
@@ -191,7 +192,7 @@ pub fn measure(channels: &Channels, ours: &Ours) -> Result<Measured, FrameError>
         let of = |name, mask: &[bool], least| {
             Layer::agreement(name, mask, bounces, &masks.bounces, least)
         };
-        layers.push(of("bounces", &masks.mirror_once, limits::AGREE));
+        layers.push(of("bounces", &masks.mirror_once, agree_once));
         if masks.mirror_more.contains(&true) {
             layers.push(of("bounces 2+", &masks.mirror_more, agree_deep));
         }

@@ -29,6 +29,17 @@ pub const SCENE_FILE: &str = "scene.xml";
 /// Ids, names and settings, for the script that renders.
 pub const IDS_FILE: &str = "scene.json";
 
+/// Segments around a curved mirror that has to be a mesh: its triangles then lie within some
+/// 3e-6 of its size from the surface, about as far as f32 would place it. A torus is seen at
+/// glancing angles all along, where what is seen moves by far more: with three times as many
+/// segments its normals are as exact as those of the shapes that Mitsuba has.
+fn segments(shape: &Shape) -> u32 {
+    match shape {
+        Shape::Torus { .. } => 3072,
+        _ => 1024,
+    }
+}
+
 /// Rows of the picture of a gradient. Odd, so that one is the horizon, where the gradient bends;
 /// between rows the error is at most (π / 1024)² / 8, times the contrast: 1.2e-6.
 const GRADIENT_ROWS: u32 = 1025;
@@ -38,9 +49,8 @@ const NEAR: f64 = 1e-3;
 /// Far clipping plane, likewise.
 const FAR: f64 = 1e5;
 
-/// Writes a scene, its meshes and textures; `scene.xml` is there only when all else is. A mirror
-/// that is a mesh there only has so many `segments` around it.
-pub fn write(scene: &Scene, bounces: u32, segments: u32, folder: &Path) -> anyhow::Result<()> {
+/// Writes a scene, its meshes and textures; `scene.xml` is there only when all else is.
+pub fn write(scene: &Scene, bounces: u32, folder: &Path) -> anyhow::Result<()> {
     for part in ["meshes", "textures"] {
         let part = folder.join(part);
         std::fs::create_dir_all(&part)
@@ -48,7 +58,6 @@ pub fn write(scene: &Scene, bounces: u32, segments: u32, folder: &Path) -> anyho
     }
     let mut writer = Writer {
         folder,
-        segments,
         xml: String::new(),
         ids: Vec::new(),
         textures: 0,
@@ -81,7 +90,6 @@ pub fn write(scene: &Scene, bounces: u32, segments: u32, folder: &Path) -> anyho
 
 struct Writer<'f> {
     folder: &'f Path,
-    segments: u32,
     xml: String,
     ids: Vec<serde_json::Value>,
     textures: u32,
@@ -326,7 +334,7 @@ impl Writer<'_> {
                 ("rectangle", keys)
             }
             curved => {
-                let mesh = curved.tessellate(self.segments);
+                let mesh = curved.tessellate(segments(curved));
                 let mut ply = Ply::new(&["x", "y", "z", "nx", "ny", "nz"]);
                 for (corners, normals) in mesh.triangles.iter().zip(&mesh.normals) {
                     let row = |corner: usize| {

@@ -10,9 +10,8 @@ use crate::cli::Common;
 use crate::exit::{Outcome, bad_input};
 use crate::setup;
 
-/// Writes a scene into a folder that Mitsuba 3 loads as it is. Curved mirrors that it has no shape
-/// for become meshes of so many segments.
-pub fn run(name: &str, folder: &Path, segments: u32, common: &Common) -> anyhow::Result<Outcome> {
+/// Writes a scene into a folder that Mitsuba 3 loads as it is.
+pub fn run(name: &str, folder: &Path, common: &Common) -> anyhow::Result<Outcome> {
     if common.bounces == 0 {
         return Err(bad_input("--bounces must be at least 1: a mirror reflects"));
     }
@@ -23,7 +22,7 @@ pub fn run(name: &str, folder: &Path, segments: u32, common: &Common) -> anyhow:
             folder.display()
         )));
     }
-    mitsuba::write(&scene, common.bounces, segments, folder)?;
+    mitsuba::write(&scene, common.bounces, folder)?;
     if !common.quiet {
         eprintln!(
             "{}: {} objects, {} mirrors for Mitsuba 3",

@@ -11,10 +11,19 @@ pub fn run(common: &Common) -> anyhow::Result<Outcome> {
     let gpu = setup::open_gpu(common)?;
     let info = gpu.info();
     let test = gpu.timestamp_self_test();
+    let features = [
+        ("timestamp-query", info.timestamps),
+        ("ray-query", info.ray_queries),
+    ];
+    let features: Vec<_> = features
+        .iter()
+        .filter(|(_, has)| *has)
+        .map(|(name, _)| name)
+        .collect();
     let facts = json!({
         "adapter": { "name": info.name, "driver": info.driver, "backend": info.backend, "software": info.software },
         "limits": { "max_image": info.max_image, "max_storage_binding": info.max_storage_binding },
-        "features": if info.timestamps { vec!["timestamp-query"] } else { Vec::new() },
+        "features": features,
         "timestamps": test,
     });
     print::facts(&facts, common.format)?;

@@ -58,6 +58,14 @@ impl Samples {
         self.frames.iter().map(|frame| frame.wall_ms).collect()
     }
 
+    /// Time before each frame to build what it traces; empty where nothing is built.
+    pub fn builds(&self) -> Vec<f64> {
+        self.frames
+            .iter()
+            .filter_map(|frame| frame.build_ms)
+            .collect()
+    }
+
     /// Median time of each pass over the samples that have it, or the most recent reason why
     /// there is none. A pass is only reported if more than half of the samples know their passes.
     pub fn passes(&self) -> Result<Vec<(String, f64)>, String> {
@@ -106,6 +114,7 @@ mod tests {
             passes,
             passes_reason: reason,
             wall_ms: 1.0,
+            build_ms: None,
         }
     }
 

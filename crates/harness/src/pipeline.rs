@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use catoptric_frame::{Frame, Status as Pixel, TrueVertex};
 use catoptric_metrics::{CompareOptions, Comparison, Timing, VertexReport};
 use catoptric_reference::{NotAvailable, RenderOptions, Tracer, Truth as Bounces, true_vertices};
-use catoptric_reflect::{Gpu, Output, Prepared, Spec, Support};
+use catoptric_reflect::{Gpu, Output, Prepared, ReflectError, Spec, Support};
 use catoptric_scene::{LoadOptions, Scene, SceneError, builtin};
 use glam::DVec2;
 
@@ -102,7 +102,10 @@ pub fn render<'g>(gpu: &'g Gpu, spec: &Spec, scene: &Scene) -> Result<Rendered<'
     if let Support::No(reason) = catoptric_reflect::supports(spec, scene) {
         return Err((Status::NotApplicable, reason));
     }
-    let failed = |error: catoptric_reflect::ReflectError| (Status::Failed, one_line(&error));
+    let failed = |error: ReflectError| match error {
+        ReflectError::Adapter(_) => (Status::NotApplicable, one_line(&error)),
+        _ => (Status::Failed, one_line(&error)),
+    };
     let start = Instant::now();
     let mut prepared = catoptric_reflect::prepare(gpu, spec, scene, size(scene)).map_err(failed)?;
     let prepare_ms = start.elapsed().as_secs_f64() * 1e3;
@@ -246,6 +249,14 @@ pub fn record(
     row.temporal = rendered.temporal.clone();
     if let Some(samples) = samples {
         row.time_ms = times(rendered.prepare_ms, &samples);
+        let build = row.time_ms.as_ref().and_then(|times| times.build.as_ref());
+        if let Some(build) = build {
+            row.meta.notes.push(format!(
+                "what the rays are traced through is built on the CPU before each frame, in {:.1} ms, \
+                 which the times of the frame do not contain",
+                build.median
+            ));
+        }
         row.raw = Some(Raw {
             frame_ms: samples.gpu().unwrap_or_default(),
             wall_ms: samples.wall(),
@@ -266,6 +277,7 @@ fn times(prepare: f64, samples: &Samples) -> Option<Times> {
         frame,
         passes,
         passes_reason,
+        build: Timing::of(&samples.builds()),
         wall: Wall { median: wall },
     })
 }

@@ -163,6 +163,9 @@ pub struct Times {
     pub passes: Option<Vec<(String, f64)>>,
     /// Why there is no time by pass.
     pub passes_reason: Option<String>,
+    /// On the CPU before each frame, to build what it traces; `None` where nothing is built for
+    /// each frame. Not part of the others.
+    pub build: Option<Timing>,
     /// As a clock on the wall sees it.
     pub wall: Wall,
 }

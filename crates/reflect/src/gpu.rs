@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+const RAY_QUERY: wgpu::Features = wgpu::Features::EXPERIMENTAL_RAY_QUERY;
+
 /// A wgpu device and what is known about its adapter.
 #[derive(Debug)]
 pub struct Gpu {
@@ -23,6 +25,8 @@ pub struct AdapterInfo {
     pub software: bool,
     /// GPU time of passes can be measured.
     pub timestamps: bool,
+    /// Rays can be traced by the hardware.
+    pub ray_queries: bool,
     /// Widest or highest image.
     pub max_image: u32,
     /// Largest buffer a shader can see, in bytes.
@@ -72,6 +76,7 @@ fn describe(adapter: &wgpu::Adapter) -> AdapterInfo {
         backend: info.backend.to_string(),
         software: info.device_type == wgpu::DeviceType::Cpu,
         timestamps: adapter.features().contains(wgpu::Features::TIMESTAMP_QUERY),
+        ray_queries: adapter.features().contains(RAY_QUERY),
         max_image: limits.max_texture_dimension_2d,
         max_storage_binding: limits.max_storage_buffer_binding_size,
     }
@@ -90,6 +95,33 @@ pub fn adapters() -> Vec<AdapterInfo> {
     enumerate().iter().map(describe).collect()
 }
 
+/// Asks for a device with the default limits, with time stamps where there are any, and with ray
+/// queries if wanted.
+fn request(
+    adapter: &wgpu::Adapter,
+    ray_queries: bool,
+) -> Result<(wgpu::Device, wgpu::Queue), wgpu::RequestDeviceError> {
+    let mut descriptor = wgpu::DeviceDescriptor {
+        label: Some("catoptric"),
+        required_features: adapter.features() & wgpu::Features::TIMESTAMP_QUERY,
+        required_limits: wgpu::Limits::default().using_resolution(adapter.limits()),
+        ..Default::default()
+    };
+    if ray_queries {
+        let limits = descriptor.required_limits;
+        descriptor.required_limits = limits.using_acceleration_structure_values(adapter.limits());
+        descriptor.required_features |= RAY_QUERY;
+        #[expect(
+            unsafe_code,
+            reason = "wgpu marks what may still change in it, ray queries too"
+        )]
+        // SAFETY: the token only says that bugs of wgpu's ray queries are known to be possible.
+        let experimental = unsafe { wgpu::ExperimentalFeatures::enabled() };
+        descriptor.experimental_features = experimental;
+    }
+    pollster::block_on(adapter.request_device(&descriptor))
+}
+
 impl Gpu {
     /// Opens the adapter whose name contains `name` (any case), else the preferred kind.
     pub fn new(name: Option<&str>, prefer: Prefer) -> Result<Self, GpuError> {
@@ -106,7 +138,7 @@ impl Gpu {
             candidates.retain(|(info, _)| info.name.to_lowercase().contains(&wanted));
         }
         candidates.sort_by_key(|(info, _)| info.software == (prefer == Prefer::Hardware));
-        let Some((info, adapter)) = candidates.into_iter().next() else {
+        let Some((mut info, adapter)) = candidates.into_iter().next() else {
             return Err(GpuError::NoAdapter {
                 wanted: name
                     .map(|name| format!(" named \"{name}\""))
@@ -118,13 +150,17 @@ impl Gpu {
                 },
             });
         };
-        let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
-            label: Some("catoptric"),
-            required_features: adapter.features() & wgpu::Features::TIMESTAMP_QUERY,
-            required_limits: wgpu::Limits::default().using_resolution(adapter.limits()),
-            ..Default::default()
-        }))
-        .map_err(|source| GpuError::NoDevice {
+        if info.ray_queries
+            && let Ok((device, queue)) = request(&adapter, true)
+        {
+            return Ok(Self {
+                device,
+                queue,
+                info,
+            });
+        }
+        info.ray_queries = false;
+        let (device, queue) = request(&adapter, false).map_err(|source| GpuError::NoDevice {
             adapter: info.name.clone(),
             source,
         })?;

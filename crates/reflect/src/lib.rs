@@ -72,6 +72,9 @@ pub enum ReflectError {
         /// Possible.
         limit: u64,
     },
+    /// An option that this adapter cannot serve.
+    #[error("the adapter {0}")]
+    Adapter(&'static str),
     /// A frame of a scene that was not prepared for.
     #[error("the scene has other vertices, triangles or mirrors than the one prepared for")]
     OtherScene,

@@ -12,7 +12,7 @@ use crate::refine::{self, Refine};
 use crate::search::{self, Account, Search};
 use crate::spec::Spec;
 use crate::stage::Stage;
-use crate::technique::{Output, Technique, Variant};
+use crate::technique::{Built, Output, Technique, Variant};
 
 /// A search with a refinement.
 struct ObjectOrder {
@@ -63,11 +63,12 @@ impl Technique for ObjectOrder {
         Ok(())
     }
 
-    fn begin_frame(&mut self, gpu: &Gpu) {
+    fn begin_frame(&mut self, gpu: &Gpu) -> Result<Built, ReflectError> {
         let warm = self.has_previous && self.search.uses_previous();
         self.search.begin_frame(gpu);
         self.refine.begin_frame(gpu, &self.stage, warm);
         self.has_previous = true;
+        Ok(Built::Nothing)
     }
 
     fn record(&self, frame: &mut Recorder<'_>, variant: Variant) {

@@ -78,6 +78,15 @@ impl<'a> Recorder<'a> {
         draw(&mut pass);
     }
 
+    /// Builds an acceleration structure for ray queries. No pass of its own: it has no time.
+    pub(crate) fn build_acceleration_structures(
+        &mut self,
+        blas: &wgpu::BlasBuildEntry<'_>,
+        tlas: &wgpu::Tlas,
+    ) {
+        self.encoder.build_acceleration_structures([blas], [tlas]);
+    }
+
     /// A compute pass. Passes of the same name are one line in the times.
     pub(crate) fn compute(
         &mut self,

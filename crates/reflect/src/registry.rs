@@ -344,6 +344,19 @@ const CUBE_MAPS: &[OptionInfo] = &[
     ),
 ];
 
+const RAY_TRACE: &[OptionInfo] = &[
+    words(
+        "traversal",
+        &["shader", "hardware"],
+        "what goes through the hierarchy: a shader (obvhs's), or ray queries in hardware where the adapter has them (the driver's)",
+    ),
+    words(
+        "update",
+        &["static", "frame"],
+        "whether the hierarchy is built when something has moved or for every frame",
+    ),
+];
+
 const CUBEMAP_TRACE: &[OptionInfo] = &[
     whole("objects", 2, [1, 8], "cube maps of each mirror"),
     words(
@@ -571,7 +584,7 @@ pub const TECHNIQUES: &[TechniqueInfo] = &[
         what: "the control: the reference's rays on the GPU",
         family: Family::ImageOrder,
         paper: "control",
-        options: &[EVERY],
+        options: &[RAY_TRACE, EVERY],
         maker: Maker::ImageOrder(image_order::ray_trace::make),
         objection: any_scene,
     },

@@ -30,6 +30,8 @@ pub(crate) enum Slot {
     Textures,
     /// A [`FLOAT4`] image that shaders write; compute stage only.
     Image,
+    /// Acceleration structure for ray queries.
+    Structure,
     /// Layers of two floats that shaders write; compute stage only.
     WriteArray,
 }
@@ -52,7 +54,9 @@ pub(crate) fn layout(gpu: &Gpu, label: &str, slots: &[Slot]) -> wgpu::BindGroupL
         .map(|(binding, slot)| wgpu::BindGroupLayoutEntry {
             binding,
             visibility: match slot {
-                Slot::Write | Slot::Image | Slot::WriteArray => wgpu::ShaderStages::COMPUTE,
+                Slot::Write | Slot::Image | Slot::WriteArray | Slot::Structure => {
+                    wgpu::ShaderStages::COMPUTE
+                }
                 _ => wgpu::ShaderStages::all(),
             },
             ty: match slot {
@@ -65,6 +69,9 @@ pub(crate) fn layout(gpu: &Gpu, label: &str, slots: &[Slot]) -> wgpu::BindGroupL
                     access: wgpu::StorageTextureAccess::WriteOnly,
                     format: FLOAT4,
                     view_dimension: wgpu::TextureViewDimension::D2,
+                },
+                Slot::Structure => wgpu::BindingType::AccelerationStructure {
+                    vertex_return: false,
                 },
                 Slot::WriteArray => wgpu::BindingType::StorageTexture {
                     access: wgpu::StorageTextureAccess::WriteOnly,

@@ -130,9 +130,12 @@ pub(crate) mod tests {
         for (program, features) in &programs {
             for on in sets(features) {
                 let module = parsed(program, &on);
-                Validator::new(ValidationFlags::all(), Capabilities::default())
-                    .validate(&module)
-                    .unwrap_or_else(|error| panic!("{program} {on:?}: {error:?}"));
+                Validator::new(
+                    ValidationFlags::all(),
+                    Capabilities::RAY_QUERY | Capabilities::default(),
+                )
+                .validate(&module)
+                .unwrap_or_else(|error| panic!("{program} {on:?}: {error:?}"));
             }
         }
     }

@@ -1,5 +1,7 @@
 //! What a technique is to the rest: it records frames and hands over what it drew and counted.
 
+use std::time::Instant;
+
 use catoptric_frame::{Frame, Traced, Triangles, VertexResult, Work};
 use catoptric_scene::Scene;
 
@@ -17,6 +19,15 @@ pub(crate) enum Variant {
     Color,
 }
 
+/// What was done before a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Built {
+    /// Nothing that a reader of times must know of.
+    Nothing,
+    /// Something that the technique traces or looks up, without which there would be no frame.
+    OnTheCpu,
+}
+
 /// A technique that stands ready for one scene and image size.
 pub(crate) trait Technique {
     /// Takes over what moved; `scene` differs from the one prepared for in positions only: eye,
@@ -27,7 +38,10 @@ pub(crate) trait Technique {
     fn update(&mut self, gpu: &Gpu, scene: &Scene) -> Result<(), ReflectError>;
 
     /// Called before each frame is recorded.
-    fn begin_frame(&mut self, gpu: &Gpu);
+    ///
+    /// # Errors
+    /// As when preparing.
+    fn begin_frame(&mut self, gpu: &Gpu) -> Result<Built, ReflectError>;
 
     /// Records all passes of a frame.
     fn record(&self, frame: &mut Recorder<'_>, variant: Variant);
@@ -95,9 +109,10 @@ impl<'g> Prepared<'g> {
     /// Renders a frame with all layers and counts the work.
     ///
     /// # Errors
-    /// None today; the device's own errors are bugs and panic.
+    /// As when preparing, where something is prepared for each frame; the device's own errors are
+    /// bugs and panic.
     pub fn render(&mut self) -> Result<Output, ReflectError> {
-        self.technique.begin_frame(self.gpu);
+        self.technique.begin_frame(self.gpu)?;
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let mut unstamped = Timer::none();
         let mut frame = Recorder::new(&mut encoder, &mut unstamped);
@@ -109,12 +124,15 @@ impl<'g> Prepared<'g> {
     /// Renders a frame as an application would, colour and depth only, and times it.
     ///
     /// # Errors
-    /// None today; the device's own errors are bugs and panic.
+    /// As [`Prepared::render`].
     pub fn time_frame(&mut self) -> Result<FrameTime, ReflectError> {
-        self.technique.begin_frame(self.gpu);
-        Ok(self.timer.time(self.gpu, |frame| {
+        let start = Instant::now();
+        let built = self.technique.begin_frame(self.gpu)?;
+        let build_ms = (built == Built::OnTheCpu).then(|| start.elapsed().as_secs_f64() * 1e3);
+        let time = self.timer.time(self.gpu, |frame| {
             self.technique.record(frame, Variant::Color);
-        }))
+        });
+        Ok(FrameTime { build_ms, ..time })
     }
 
     /// Takes over what moved since the last frame: eye, object vertices, mirrors. Nothing is

@@ -20,6 +20,9 @@ pub struct FrameTime {
     pub passes_reason: Option<String>,
     /// From before the submission until the queue is empty, milliseconds.
     pub wall_ms: f64,
+    /// On the CPU before that, to build what the frame traces, milliseconds; `None` where nothing
+    /// is built for each frame.
+    pub build_ms: Option<f64>,
 }
 
 /// Share of the wall time by which the passes may miss it.
@@ -96,6 +99,7 @@ impl Timer {
             passes: None,
             passes_reason: Some(reason),
             wall_ms,
+            build_ms: None,
         };
         let Some(stamps) = &self.stamps else {
             return without("the adapter has no timestamps".to_owned());
@@ -147,6 +151,7 @@ impl Timer {
             passes: Some(passes),
             passes_reason: None,
             wall_ms,
+            build_ms: None,
         }
     }
 }

@@ -130,6 +130,7 @@ pub fn measured(scene: &str, technique: &str) -> Record {
                 ("search".to_owned(), 4.0),
             ]),
             passes_reason: None,
+            build: Timing::of(&[1.0, 2.0]),
             wall: Wall { median: 6.0 },
         }),
         mismatch: Some(Mismatch {

@@ -16,7 +16,7 @@ use crate::recorder::{Begin, Recorder};
 use crate::resources::view;
 use crate::spec::{Options, Spec};
 use crate::stage::Stage;
-use crate::technique::{Output, Technique, Variant};
+use crate::technique::{Built, Output, Technique, Variant};
 
 /// A technique of this family that stands ready for one scene and image size.
 pub(crate) trait ImageOrder {
@@ -25,6 +25,14 @@ pub(crate) trait ImageOrder {
     /// # Errors
     /// As when preparing.
     fn update(&mut self, gpu: &Gpu, stage: &Stage) -> Result<(), ReflectError>;
+
+    /// Called before each frame is recorded.
+    ///
+    /// # Errors
+    /// As when preparing.
+    fn begin_frame(&mut self, _: &Gpu, _: &Stage) -> Result<Built, ReflectError> {
+        Ok(Built::Nothing)
+    }
 
     /// Records the passes that fill `stage.reflections`, for all mirrors.
     fn record(&self, frame: &mut Recorder<'_>, stage: &Stage, variant: Variant);
@@ -90,7 +98,9 @@ impl Technique for Whole {
         self.technique.update(gpu, &self.stage)
     }
 
-    fn begin_frame(&mut self, _gpu: &Gpu) {}
+    fn begin_frame(&mut self, gpu: &Gpu) -> Result<Built, ReflectError> {
+        self.technique.begin_frame(gpu, &self.stage)
+    }
 
     fn record(&self, frame: &mut Recorder<'_>, variant: Variant) {
         self.stage.begin(frame, variant);

@@ -49,7 +49,7 @@ impl Fill {
             draw_layers: pipeline("layers", 2),
             group: group(gpu, &own_layout, &resources),
             rays: trace
-                .then(|| RayTrace::new(gpu, stage, Some(&color)))
+                .then(|| RayTrace::of_pixels(gpu, stage, &color))
                 .transpose()?,
             color,
             position,

@@ -1,0 +1,326 @@
+//! The control: the reference's reflected rays, traced on the GPU in `f32` over the objects'
+//! triangles, not the mirrors (truth `first-bounce`). What it does not match of the reference is
+//! the harness's own noise; its time is what an application would pay instead of any other
+//! technique.
+//!
+//! With `traversal=shader` a shader goes through obvhs's hierarchy, with `hardware` the driver's
+//! own structure is asked by ray queries. With `update=frame` either is built for each frame, as
+//! for a scene that deforms: obvhs's on the CPU before the frame, the driver's on the GPU in a pass
+//! `build`.
+
+mod hardware;
+mod wide;
+
+use catoptric_frame::Work;
+
+use super::ImageOrder;
+use super::cubemaps::draw_now;
+use crate::ReflectError;
+use crate::gpu::Gpu;
+use crate::recorder::Recorder;
+use crate::resources::{Slot, compute, group, layout, module, storage_zeros, view};
+use crate::spec::Options;
+use crate::stage::Stage;
+use crate::technique::{Built, Variant};
+
+use hardware::Hardware;
+use wide::Wide;
+
+/// Side of a workgroup in pixels.
+const GROUP: u32 = 8;
+
+/// The pass `trace`, for all mirror pixels or for those that another technique leaves open.
+pub(crate) struct RayTrace {
+    layout: wgpu::BindGroupLayout,
+    trace: wgpu::ComputePipeline,
+    counting: wgpu::ComputePipeline,
+    structure: Structure,
+    every_frame: bool,
+    /// Nodes and triangles tested, a pair of `u32` a pixel.
+    counts: wgpu::Buffer,
+    /// Colours of a technique before, −1 in w where it has no answer; all others are left alone.
+    left_open: Option<wgpu::TextureView>,
+    group: wgpu::BindGroup,
+}
+
+/// What the rays are traced through.
+enum Structure {
+    Wide(Wide),
+    Hardware(Box<Hardware>),
+}
+
+pub(crate) fn make(
+    gpu: &Gpu,
+    options: &Options,
+    stage: &Stage,
+) -> Result<Box<dyn ImageOrder>, ReflectError> {
+    let structure = if options.is("traversal", "hardware") {
+        if !gpu.info().ray_queries {
+            return Err(ReflectError::Adapter("offers no ray queries"));
+        }
+        let structure = Hardware::new(gpu, &stage.world.scene);
+        draw_now(gpu, |frame| structure.build(frame));
+        Structure::Hardware(Box::new(structure))
+    } else {
+        Structure::Wide(Wide::new(gpu, &stage.world.scene)?)
+    };
+    let every_frame = options.is("update", "frame");
+    Ok(Box::new(RayTrace::new(
+        gpu,
+        stage,
+        structure,
+        every_frame,
+        None,
+    )?))
+}
+
+impl RayTrace {
+    /// Rays for those pixels alone where the image `left_open` has −1 in w.
+    pub(crate) fn of_pixels(
+        gpu: &Gpu,
+        stage: &Stage,
+        left_open: &wgpu::Texture,
+    ) -> Result<Self, ReflectError> {
+        let structure = Structure::Wide(Wide::new(gpu, &stage.world.scene)?);
+        Self::new(gpu, stage, structure, false, Some(left_open))
+    }
+
+    fn new(
+        gpu: &Gpu,
+        stage: &Stage,
+        structure: Structure,
+        every_frame: bool,
+        left_open: Option<&wgpu::Texture>,
+    ) -> Result<Self, ReflectError> {
+        let left_open = left_open.map(view);
+        let mut slots = vec![Slot::Image, Slot::Image, Slot::Write];
+        let mut features = Vec::new();
+        match &structure {
+            Structure::Wide(_) => slots.extend([Slot::Read, Slot::Read]),
+            Structure::Hardware(_) => {
+                slots.push(Slot::Structure);
+                features.push("hardware");
+            }
+        }
+        if left_open.is_some() {
+            slots.push(Slot::Texture);
+            features.push("fallback");
+        }
+        let layout = layout(gpu, "ray trace", &slots);
+        let pipeline = |features: &[&str]| -> Result<_, ReflectError> {
+            let layouts = [
+                Some(&stage.world.view_layout),
+                Some(&stage.gbuffer.mirror_layout),
+                Some(&stage.world.surface_layout),
+                Some(&layout),
+            ];
+            let module = module(gpu, "ray_trace", features)?;
+            Ok(compute(gpu, &module, "reflections", &layouts))
+        };
+        let [width, height] = stage.world.size.map(u64::from);
+        let counts = storage_zeros(gpu, width * height * 8);
+        let trace = pipeline(&features)?;
+        features.push("count");
+        Ok(Self {
+            trace,
+            counting: pipeline(&features)?,
+            group: bind(gpu, &layout, &structure, stage, &counts, left_open.as_ref()),
+            left_open,
+            layout,
+            structure,
+            every_frame,
+            counts,
+        })
+    }
+
+    /// Takes the scene's triangles as they are now.
+    fn rebuild(&mut self, gpu: &Gpu, stage: &Stage) -> Result<(), ReflectError> {
+        self.structure = match &self.structure {
+            Structure::Wide(_) => Structure::Wide(Wide::new(gpu, &stage.world.scene)?),
+            Structure::Hardware(_) => {
+                Structure::Hardware(Box::new(Hardware::new(gpu, &stage.world.scene)))
+            }
+        };
+        if let Structure::Hardware(structure) = &self.structure {
+            draw_now(gpu, |frame| structure.build(frame));
+        }
+        let (layout, left_open) = (&self.layout, self.left_open.as_ref());
+        self.group = bind(gpu, layout, &self.structure, stage, &self.counts, left_open);
+        Ok(())
+    }
+
+    /// A pass of so many workgroups.
+    fn dispatch(
+        &self,
+        frame: &mut Recorder<'_>,
+        (name, stage, variant): (&str, &Stage, Variant),
+        [width, height]: [u32; 2],
+    ) {
+        frame.compute(name, |pass| {
+            pass.set_pipeline(match variant {
+                Variant::AllLayers => &self.counting,
+                Variant::Color => &self.trace,
+            });
+            pass.set_bind_group(0, &stage.world.view_group, &[]);
+            pass.set_bind_group(1, &stage.gbuffer.mirror_groups[0], &[]);
+            pass.set_bind_group(2, &stage.world.surface_group, &[]);
+            pass.set_bind_group(3, &self.group, &[]);
+            pass.dispatch_workgroups(width, height, 1);
+        });
+    }
+}
+
+fn bind(
+    gpu: &Gpu,
+    layout: &wgpu::BindGroupLayout,
+    structure: &Structure,
+    stage: &Stage,
+    counts: &wgpu::Buffer,
+    left_open: Option<&wgpu::TextureView>,
+) -> wgpu::BindGroup {
+    let color = view(&stage.reflections.color);
+    let position = view(&stage.reflections.position);
+    let mut resources = vec![
+        wgpu::BindingResource::TextureView(&color),
+        wgpu::BindingResource::TextureView(&position),
+        counts.as_entire_binding(),
+    ];
+    match structure {
+        Structure::Wide(wide) => resources.extend([
+            wide.nodes.as_entire_binding(),
+            wide.triangles.as_entire_binding(),
+        ]),
+        Structure::Hardware(structure) => resources.push(structure.tlas.as_binding()),
+    }
+    resources.extend(left_open.map(wgpu::BindingResource::TextureView));
+    group(gpu, layout, &resources)
+}
+
+impl ImageOrder for RayTrace {
+    /// Builds the structure anew: any object may have moved.
+    fn update(&mut self, gpu: &Gpu, stage: &Stage) -> Result<(), ReflectError> {
+        self.rebuild(gpu, stage)
+    }
+
+    fn begin_frame(&mut self, gpu: &Gpu, stage: &Stage) -> Result<Built, ReflectError> {
+        if self.every_frame && matches!(self.structure, Structure::Wide(_)) {
+            self.rebuild(gpu, stage)?;
+            return Ok(Built::OnTheCpu);
+        }
+        Ok(Built::Nothing)
+    }
+
+    fn record(&self, frame: &mut Recorder<'_>, stage: &Stage, variant: Variant) {
+        if let Structure::Hardware(structure) = &self.structure
+            && self.every_frame
+        {
+            structure.build(frame);
+            // The stamp at the end of a pass that uses the structure is the end of its build.
+            self.dispatch(frame, ("build", stage, variant), [1, 1]);
+        }
+        let groups = stage.world.size.map(|side| side.div_ceil(GROUP));
+        self.dispatch(frame, ("trace", stage, variant), groups);
+    }
+
+    /// Nodes as `node_tests`, triangles as `evaluations`; hardware does not tell.
+    fn work(&self, gpu: &Gpu, stage: &Stage) -> Work {
+        let counts: Vec<[u32; 2]> = bytemuck::pod_collect_to_vec(&gpu.read_buffer(&self.counts));
+        let mirrors = gpu.read_texture(&stage.gbuffer.position);
+        let pixels = mirrors.iter().filter(|texel| texel[3] > 0.0).count();
+        let mean = |index: usize| {
+            let counts = counts.iter().map(|count| f64::from(count[index]));
+            counts.sum::<f64>() / pixels.max(1) as f64
+        };
+        Work {
+            node_tests: mean(0),
+            evaluations: mean(1),
+            ..Work::default()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spec::parse;
+    use crate::testing::{gpu_or_skip, scene};
+    use crate::timing::Timer;
+
+    /// Object ids at the mirror's pixels.
+    fn ids(gpu: &Gpu, technique: &RayTrace, stage: &Stage) -> Vec<u32> {
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let mut unstamped = Timer::none();
+        let mut frame = Recorder::new(&mut encoder, &mut unstamped);
+        stage.begin(&mut frame, Variant::AllLayers);
+        technique.record(&mut frame, stage, Variant::AllLayers);
+        stage.finish(&mut frame);
+        gpu.queue.submit([encoder.finish()]);
+        let texels = gpu.read_texture(&stage.reflections.position);
+        texels.iter().map(|texel| texel[3] as u32).collect()
+    }
+
+    #[test]
+    fn the_picture_comes_from_the_triangles_in_the_hierarchy() {
+        let Some(gpu) = gpu_or_skip() else { return };
+        let spec = parse("ray-trace").expect("a technique");
+        let scene = scene("sphere-square");
+        let stage = Stage::new(&gpu, &spec.options, &scene, [96, 72]).expect("fits the device");
+        let wide = Wide::new(&gpu, &stage.world.scene).expect("fits the device");
+        let structure = Structure::Wide(wide);
+        let technique = RayTrace::new(&gpu, &stage, structure, false, None).expect("links");
+        let before = ids(&gpu, &technique, &stage);
+        assert!(before.contains(&1), "the square is reflected");
+        assert_eq!(before, ids(&gpu, &technique, &stage));
+        // The first triangle of the copy becomes a point.
+        let Structure::Wide(wide) = &technique.structure else {
+            unreachable!("made above")
+        };
+        gpu.queue.write_buffer(&wide.triangles, 0, &[0; 48]);
+        let after = ids(&gpu, &technique, &stage);
+        let lost = before
+            .iter()
+            .zip(&after)
+            .filter(|(a, b)| **a == 1 && **b == 0);
+        let seen = before.iter().filter(|id| **id == 1).count();
+        assert!(lost.count() > seen / 5, "{seen} pixels showed the square");
+    }
+
+    #[test]
+    fn both_traversals_see_the_same() {
+        let Some(gpu) = gpu_or_skip() else { return };
+        if !gpu.info().ray_queries {
+            eprintln!("skipped: {} offers no ray queries", gpu.info().driver);
+            return;
+        }
+        let scene = scene("sphere-objects-1k");
+        let seen = |name: &str| {
+            let spec = parse(name).expect("a technique");
+            let mut prepared = crate::prepare(&gpu, &spec, &scene, [96, 72]).expect("fits");
+            let frame = prepared.render().expect("renders").frame;
+            frame.reflected.expect("all layers").id
+        };
+        let software = seen("ray-trace");
+        for name in [
+            "ray-trace(traversal=hardware)",
+            "ray-trace(traversal=hardware,update=frame)",
+        ] {
+            let hardware = seen(name);
+            let pairs = software.pixels().iter().zip(hardware.pixels());
+            let other = pairs.filter(|(a, b)| a != b).count();
+            // Rays through an edge may fall to either side.
+            assert!(other <= 2, "{name}: {other} pixels");
+        }
+    }
+
+    #[test]
+    fn what_is_built_for_each_frame_is_timed_apart() {
+        let Some(gpu) = gpu_or_skip() else { return };
+        let scene = scene("sphere-square");
+        for (name, built) in [("ray-trace", false), ("ray-trace(update=frame)", true)] {
+            let spec = parse(name).expect("a technique");
+            let mut prepared = crate::prepare(&gpu, &spec, &scene, [32, 24]).expect("fits");
+            let time = prepared.time_frame().expect("renders");
+            assert_eq!(time.build_ms.is_some(), built, "{name}");
+        }
+    }
+}

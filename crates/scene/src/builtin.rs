@@ -55,20 +55,19 @@ const SCENES: [(&str, &str); 22] = scenes![
     "sponza-ball",
 ];
 
-/// Scenes made from a template: one grid of about so many vertices.
-const GRIDS: [(&str, &str); 2] = [
-    (
-        "sphere-grid-",
-        include_str!("../../../scenes/template-sphere-grid.toml"),
-    ),
-    (
-        "sphere-grid-full-",
-        include_str!("../../../scenes/template-sphere-grid-full.toml"),
-    ),
-];
+/// Scenes that differ in one number of a template.
+struct Family {
+    /// What their names begin with.
+    prefix: &'static str,
+    template: &'static str,
+    /// The key, with the template's own number.
+    line: (&'static str, u32),
+    /// What their names end with, and their numbers.
+    sizes: &'static [(&'static str, u32)],
+}
 
-/// Sizes of the grids: the name's ending and the cells along each side.
-const GRID_SIZES: [(&str, u32); 7] = [
+/// Cells along each side of a grid of about so many vertices.
+const GRID_SIZES: &[(&str, u32)] = &[
     ("100", 9),
     ("300", 16),
     ("1k", 31),
@@ -78,18 +77,42 @@ const GRID_SIZES: [(&str, u32); 7] = [
     ("100k", 315),
 ];
 
+const FAMILIES: [Family; 3] = [
+    Family {
+        prefix: "sphere-grid-full-",
+        template: include_str!("../../../scenes/template-sphere-grid-full.toml"),
+        line: ("n", 8),
+        sizes: GRID_SIZES,
+    },
+    Family {
+        prefix: "sphere-grid-",
+        template: include_str!("../../../scenes/template-sphere-grid.toml"),
+        line: ("n", 8),
+        sizes: GRID_SIZES,
+    },
+    Family {
+        prefix: "sphere-drawn-",
+        template: include_str!("../../../scenes/template-sphere-drawn.toml"),
+        line: ("tessellation", 128),
+        sizes: &[
+            ("8", 8),
+            ("16", 16),
+            ("32", 32),
+            ("64", 64),
+            ("128", 128),
+            ("256", 256),
+        ],
+    },
+];
+
 /// Names of all built-in scenes.
 pub fn names() -> Vec<String> {
-    let grids = GRIDS.iter().flat_map(|(family, _)| {
-        GRID_SIZES
-            .iter()
-            .map(move |(size, _)| format!("{family}{size}"))
+    let files = SCENES.iter().map(|(name, _)| (*name).to_owned());
+    let families = FAMILIES.iter().flat_map(|family| {
+        let sizes = family.sizes.iter();
+        sizes.map(|(size, _)| format!("{}{size}", family.prefix))
     });
-    SCENES
-        .iter()
-        .map(|(name, _)| (*name).to_owned())
-        .chain(grids)
-        .collect()
+    files.chain(families).collect()
 }
 
 /// The scene file of a built-in scene.
@@ -97,10 +120,12 @@ pub fn text(name: &str) -> Option<String> {
     if let Some((_, text)) = SCENES.iter().find(|(known, _)| *known == name) {
         return Some((*text).to_owned());
     }
-    GRIDS.iter().find_map(|(family, template)| {
-        let size = name.strip_prefix(family)?;
-        let (_, cells) = GRID_SIZES.iter().find(|(known, _)| *known == size)?;
-        Some(template.replace("n = 8 ", &format!("n = {cells} ")))
+    FAMILIES.iter().find_map(|family| {
+        let size = name.strip_prefix(family.prefix)?;
+        let (_, number) = family.sizes.iter().find(|(known, _)| *known == size)?;
+        let (key, own) = family.line;
+        let [own, new] = [own, *number].map(|number| format!("\n{key} = {number} "));
+        Some(family.template.replacen(&own, &new, 1))
     })
 }
 

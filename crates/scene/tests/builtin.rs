@@ -45,6 +45,14 @@ fn sizes_are_what_the_names_say() {
 }
 
 #[test]
+fn a_mirror_is_drawn_with_as_many_segments_as_its_scene_says() {
+    for (name, segments) in [("sphere-drawn-8", 8), ("sphere-drawn-256", 256)] {
+        let scene = open(name, &LoadOptions::default()).unwrap();
+        assert_eq!(scene.mirrors[0].tessellation, segments);
+    }
+}
+
+#[test]
 fn rooms_have_the_triangles_they_say() {
     for (name, triangles) in [("box", 850), ("room", 4_700), ("atrium", 30_000)] {
         let found = open(name, &LoadOptions::default())

@@ -24,6 +24,7 @@
 //! record's schema, anchors are unique. Time: the whole suite shares `timing_s`; measuring apart
 //! from timing (reference, layers, comparison) comes on top and grows with the number of scenes.
 
+mod control;
 mod cubemap;
 mod estalella;
 mod figure;
@@ -64,12 +65,13 @@ pub struct Suite {
 pub type MakePictures = fn(&Studio<'_>) -> anyhow::Result<Vec<Picture>>;
 
 /// Every suite, by name.
-pub const SUITES: [&Suite; 5] = [
+pub const SUITES: [&Suite; 6] = [
     &search::SUITE,
     &tessellation::SUITE,
     &estalella::SUITE,
     &cubemap::SUITE,
     &cubemap::FULL,
+    &control::SUITE,
 ];
 
 /// What a suite's own pictures are made with.

@@ -1,0 +1,208 @@
+//! `catoptric bench control`: what the harness itself is worth. The control traces the reference's
+//! rays on the GPU; what is left between the two is the floor under every other number. Drawn from
+//! triangles, a mirror is not the reference's any more: how far, and how the gap closes. And what
+//! the alternative to all techniques costs: its hierarchy, built once or for every frame, gone
+//! through by a shader or by ray queries in hardware.
+
+use crate::plot::{Axis, Scale};
+use crate::report::words::{percent, short};
+
+use super::results::power;
+use super::{Figure, Point, Quantity, Results, Series, Suite};
+
+/// The suite.
+pub const SUITE: Suite = Suite {
+    name: "control",
+    title: "The control: rays on the GPU against the reference",
+    why: "How much of any error is the harness's own, how much of it the triangles that a mirror is \
+          drawn from, and what do ray-traced reflections cost where a scene moves?",
+    figures,
+    pictures: None,
+    timing_s: 45.0,
+};
+
+const EXACT: &str = "exact mirror";
+const DRAWN: &str = "mirror drawn from triangles";
+
+/// Segments around the drawn mirror of the built-in family.
+const SEGMENTS: [u32; 6] = [8, 16, 32, 64, 128, 256];
+
+/// The built-in family's sizes: the name's ending, and the triangles of its grid.
+const SIZES: [(&str, u32); 6] = [
+    ("100", 162),
+    ("1k", 1_922),
+    ("3k", 5_832),
+    ("10k", 19_602),
+    ("30k", 59_168),
+    ("100k", 198_450),
+];
+
+const STATIC: &str = "built once";
+const REBUILT: &str = "built for every frame";
+const HARDWARE: &str = "hardware, built once";
+const HARDWARE_REBUILT: &str = "hardware, built for every frame";
+
+/// Label and technique.
+const COSTS: [(&str, &str); 4] = [
+    (STATIC, "ray-trace"),
+    (REBUILT, "ray-trace(update=frame)"),
+    (HARDWARE, "ray-trace(traversal=hardware)"),
+    (
+        HARDWARE_REBUILT,
+        "ray-trace(traversal=hardware,update=frame)",
+    ),
+];
+
+const AGREEMENT: &str = "object_agreement";
+const ANGLE: &str = "angular_error_deg.p50";
+const BUILD_CPU: &str = "time_ms.build.median";
+const BUILD_GPU: &str = "time_ms.passes.build";
+const TRACE: &str = "time_ms.passes.trace";
+
+fn figures(scene: Option<&str>) -> Vec<Figure> {
+    if let Some(scene) = scene {
+        let axis = Axis {
+            label: "scene".to_owned(),
+            scale: Scale::Names(vec![scene.to_owned()]),
+        };
+        return vec![cost(axis, &[(0.0, scene.to_owned())])];
+    }
+    let sizes =
+        SIZES.map(|(size, triangles)| (f64::from(triangles), format!("sphere-grid-{size}")));
+    vec![gap(), cost(Axis::log("triangles"), &sizes)]
+}
+
+fn gap() -> Figure {
+    let series = |(label, technique): (&str, &str)| Series {
+        label: label.to_owned(),
+        points: SEGMENTS
+            .iter()
+            .map(|segments| {
+                let scene = format!("sphere-drawn-{segments}");
+                let point = Point::new(f64::from(*segments), scene, technique);
+                match segments {
+                    16 | 128 => point.shown(),
+                    _ => point,
+                }
+            })
+            .collect(),
+    };
+    let series = [(EXACT, "ray-trace"), (DRAWN, "ray-trace(gbuffer=mesh)")].map(series);
+    Figure {
+        anchor: "gap",
+        title: "The mirror's own triangles".to_owned(),
+        after: "",
+        question: "The same rays from a mirror that each eye ray meets exactly, and from the \
+                   triangles that it is drawn with, with interpolated normals. The first curve is \
+                   the harness's noise; between the two lies what the papers' applications lost \
+                   before any technique had begun."
+            .to_owned(),
+        axis: Axis::log("segments around the sphere"),
+        series: series.into(),
+        quantities: vec![
+            Quantity::linear("object agreement", AGREEMENT),
+            Quantity::log("median angular error (°)", ANGLE),
+            Quantity::log(
+                "99th percentile of the angular error (°)",
+                "angular_error_deg.p99",
+            ),
+            Quantity::linear("overlap of the mirror's pixels (IoU)", "coverage.iou"),
+        ],
+        quotes: Vec::new(),
+        analysis: closing,
+    }
+}
+
+fn closing(results: &Results<'_>) -> Vec<String> {
+    let mut said = Vec::new();
+    let floor = results.curve(EXACT, ANGLE);
+    if let Some(worst) = floor.iter().map(|(_, angle)| *angle).reduce(f64::max) {
+        said.push(format!(
+            "The exact mirror differs from the reference by {}° in the median, on every size: that \
+             is float32.",
+            short(worst)
+        ));
+    }
+    let drawn = results.curve(DRAWN, ANGLE);
+    if let (Some(first), Some(last), Some(power)) = (drawn.first(), drawn.last(), power(&drawn)) {
+        said.push(format!(
+            "Drawn from triangles the median error falls from {}° with {} segments to {}° with {}, \
+             as the power {} of their number.",
+            short(first.1),
+            first.0,
+            short(last.1),
+            last.0,
+            short(power)
+        ));
+    }
+    let agreement = results.curve(DRAWN, AGREEMENT);
+    if let Some((segments, _)) = agreement.iter().find(|(_, share)| *share >= 0.999) {
+        said.push(format!(
+            "From {segments} segments on, {} of the mirror's pixels show the right object.",
+            percent(0.999)
+        ));
+    }
+    said
+}
+
+fn cost(axis: Axis, scenes: &[(f64, String)]) -> Figure {
+    let series = COSTS.map(|(label, technique)| Series {
+        label: label.to_owned(),
+        points: (scenes.iter())
+            .map(|(x, scene)| Point::new(*x, scene.clone(), technique))
+            .collect(),
+    });
+    Figure {
+        anchor: "hierarchy",
+        title: "What the rays are traced through".to_owned(),
+        after: "",
+        question: "A scene that deforms needs its hierarchy anew in every frame. A shader's is built \
+                   on the CPU, apart from the frame; the driver's is built on the GPU, in a pass of \
+                   its own. Where the adapter has no ray queries, their curves are missing."
+            .to_owned(),
+        axis,
+        series: series.into(),
+        quantities: vec![
+            Quantity::log("building on the CPU before a frame (ms)", BUILD_CPU),
+            Quantity::log("building on the GPU (ms)", BUILD_GPU),
+            Quantity::log("tracing (ms)", TRACE),
+            Quantity::linear("nodes visited per mirror pixel", "work.node_tests"),
+            Quantity::linear("triangles tested per mirror pixel", "work.evaluations"),
+            Quantity::linear("object agreement", AGREEMENT),
+        ],
+        quotes: Vec::new(),
+        analysis: building,
+    }
+}
+
+fn building(results: &Results<'_>) -> Vec<String> {
+    let mut said = Vec::new();
+    for (series, path, place) in [
+        (REBUILT, BUILD_CPU, "on the CPU"),
+        (HARDWARE_REBUILT, BUILD_GPU, "on the GPU"),
+    ] {
+        let built = results.curve(series, path);
+        let traced = results.curve(series, TRACE);
+        let (Some(built_last), Some(traced_last)) = (built.last(), traced.last()) else {
+            continue;
+        };
+        said.push(format!(
+            "Building the hierarchy of the largest scene {place} takes {} times as long as tracing \
+             through it.",
+            short(built_last.1 / traced_last.1)
+        ));
+        if let Some(power) = power(&built) {
+            said.push(format!(
+                "The time to build {place} grows as the power {} of the number of triangles.",
+                short(power)
+            ));
+        }
+    }
+    if let Some(power) = power(&results.curve(STATIC, "work.node_tests")) {
+        said.push(format!(
+            "The nodes that a ray visits grow as the power {} of the number of triangles.",
+            short(power)
+        ));
+    }
+    said
+}

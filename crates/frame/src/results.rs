@@ -104,17 +104,18 @@ impl Traced {
     }
 }
 
-/// Work counters, device-independent: means per searched vertex or per mirror pixel.
+/// Work counters, device-independent: means per searched vertex or per mirror pixel; `None` for
+/// what a technique does not do, or does for none of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Work {
-    /// Uses of the error function.
-    pub evaluations: f64,
+    /// Uses of the error function; of traced rays, triangles tested.
+    pub evaluations: Option<f64>,
     /// Moves of an iterative search.
-    pub steps: f64,
+    pub steps: Option<f64>,
     /// Hierarchy nodes tested.
-    pub node_tests: f64,
+    pub node_tests: Option<f64>,
     /// Map samples along traced rays.
-    pub samples: f64,
+    pub samples: Option<f64>,
     /// Steps skipped by an acceleration structure.
-    pub skips: f64,
+    pub skips: Option<f64>,
 }

@@ -8,9 +8,12 @@ use catoptric_reflect::{FrameTime, Prepared, ReflectError};
 /// Frames before the first that counts.
 const WARM_UP: usize = 2;
 /// Never fewer samples, whatever the budget.
-const FEWEST: usize = 5;
+const FEWEST: usize = catoptric_metrics::stats::FEWEST_FOR_INTERVAL;
 /// Never more samples, whatever the budget.
 const MOST: usize = 200;
+
+/// Share of the frame by which the passes may miss it.
+const PASSES_MISS_FRAME: f64 = 0.1;
 
 /// All samples of one technique, in the order in which they were taken.
 #[derive(Clone, Debug, Default)]
@@ -20,8 +23,8 @@ pub struct Samples {
 }
 
 /// Times `techniques` in turn, A B A B …, until the budget is spent: after two warm-up frames
-/// each at least 5 and at most 200 samples, no more than 5 once `stop` says so. One result a technique, in order: its samples, or the
-/// first error, after which it is left out.
+/// each at least 6 and at most 200 samples, no more than 6 once `stop` says so. One result a
+/// technique, in order: its samples, or the first error, after which it is left out.
 pub fn interleaved(
     techniques: &mut [&mut Prepared<'_>],
     budget: Duration,
@@ -67,7 +70,8 @@ impl Samples {
     }
 
     /// Median time of each pass over the samples that have it, or the most recent reason why
-    /// there is none. A pass is only reported if more than half of the samples know their passes.
+    /// there is none. Passes are only reported if more than half of the samples know theirs, and if
+    /// their medians add up to that of the frame.
     pub fn passes(&self) -> Result<Vec<(String, f64)>, String> {
         let known: Vec<_> = self
             .frames
@@ -83,7 +87,7 @@ impl Samples {
             return Err(reason.unwrap_or_else(|| "no frame was timed".to_owned()));
         }
         let names = known[0].iter().map(|(name, _)| name);
-        Ok(names
+        let passes: Vec<_> = names
             .filter_map(|name| {
                 let times = known.iter().filter_map(|passes| {
                     passes
@@ -93,7 +97,15 @@ impl Samples {
                 });
                 Some((name.clone(), Timing::of(&times.collect::<Vec<_>>())?.median))
             })
-            .collect())
+            .collect();
+        let sum: f64 = passes.iter().map(|(_, time)| time).sum();
+        let frame = Timing::of(&self.gpu().unwrap_or_default()).map_or(0.0, |frame| frame.median);
+        if (sum - frame).abs() > PASSES_MISS_FRAME * frame {
+            return Err(format!(
+                "the medians of the passes add up to {sum:.2} ms, that of the frame is {frame:.2}"
+            ));
+        }
+        Ok(passes)
     }
 }
 
@@ -120,8 +132,12 @@ mod tests {
 
     #[test]
     fn passes_are_medians_by_name() {
-        let frames = [1.0, 2.0, 9.0]
-            .map(|time| frame(Some(time), Some(vec![("search", time), ("draw", 0.5)])));
+        let frames = [1.0, 2.0, 9.0].map(|time| {
+            frame(
+                Some(time + 0.5),
+                Some(vec![("search", time), ("draw", 0.5)]),
+            )
+        });
         let samples = Samples {
             frames: frames.to_vec(),
         };
@@ -130,6 +146,16 @@ mod tests {
             Ok(vec![("search".to_owned(), 2.0), ("draw".to_owned(), 0.5)])
         );
         assert_eq!(samples.gpu(), Some(vec![1.0, 2.0, 9.0]));
+    }
+
+    #[test]
+    fn passes_that_do_not_add_up_are_not_reported() {
+        let search = |total| frame(Some(total), Some(vec![("search", 1.0)]));
+        let frames = |totals: [f64; 3]| Samples {
+            frames: totals.map(search).to_vec(),
+        };
+        assert!(frames([1.0, 1.05, 9.0]).passes().is_ok());
+        assert!(frames([1.0, 1.2, 1.2]).passes().is_err());
     }
 
     #[test]

@@ -51,8 +51,8 @@ pub fn follow(
         };
         errors.push(found);
         if frame > 0 {
-            evaluations.push(output.work.evaluations);
-            steps.push(output.work.steps);
+            evaluations.extend(output.work.evaluations);
+            steps.extend(output.work.steps);
         }
     }
     let mut times = Vec::new();

@@ -13,7 +13,7 @@ use glam::DVec2;
 use crate::exit::bad_input;
 use crate::measure::{self, Samples};
 use crate::motion::{self, Steadiness};
-use crate::record::{AgainstFull, Raw, Record, Status, Times, Wall, Work};
+use crate::record::{AgainstFull, Raw, Record, Status, Times, Wall};
 
 /// Set by Ctrl-C: what is finished is kept, what is not begun is left out.
 pub static INTERRUPTED: AtomicBool = AtomicBool::new(false);
@@ -143,6 +143,7 @@ pub fn compare(scene: &Scene, truth: &Truth, output: &Output) -> Result<Compared
     let failed = |error: catoptric_metrics::MetricsError| (Status::Failed, error.to_string());
     let options = CompareOptions {
         t_junctions: output.t_junctions,
+        may_be_unresolved: output.may_be_unresolved,
         ..CompareOptions::default()
     };
     let first =
@@ -245,7 +246,7 @@ pub fn record(
     }
     row.meta.notes.extend(rendered.output.notes.iter().cloned());
     row.triangles = rendered.output.triangles.clone();
-    row.work = Some(Work::from(&rendered.output));
+    row.work = Some(rendered.output.work);
     row.temporal = rendered.temporal.clone();
     if let Some(samples) = samples {
         row.time_ms = times(rendered.prepare_ms, &samples);

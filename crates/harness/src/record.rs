@@ -6,11 +6,10 @@
 use std::path::Path;
 
 use anyhow::Context;
-use catoptric_frame::Triangles;
+use catoptric_frame::{Triangles, Work};
 use catoptric_metrics::{
     ColorError, Coverage, Mismatch, NonFinite, Regions, Summary, Timing, VertexReport,
 };
-use catoptric_reflect::Output;
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 use serde_json::Value;
@@ -99,47 +98,6 @@ pub struct Adapter {
     pub backend: String,
     /// A CPU plays the GPU: times say little about a real one.
     pub software: bool,
-}
-
-/// Means per searched vertex or per mirror pixel; `null` for what the technique does not do.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Work {
-    /// Uses of the error function.
-    pub evaluations: Option<f64>,
-    /// Moves of an iterative search.
-    pub steps: Option<f64>,
-    /// Hierarchy nodes tested.
-    pub node_tests: Option<f64>,
-    /// Map samples along traced rays.
-    pub samples: Option<f64>,
-    /// Steps skipped by an acceleration structure.
-    pub skips: Option<f64>,
-}
-
-impl From<&Output> for Work {
-    fn from(output: &Output) -> Self {
-        let searched = output.vertices.is_some();
-        let mut vertices = output.vertices.iter().flatten();
-        let hierarchy = vertices.any(|vertex| vertex.hole.is_some());
-        let work = &output.work;
-        // Techniques of image order count what they do; 0 is what they do not.
-        let done = |count: f64| (count > 0.0).then_some(count);
-        Self {
-            evaluations: if searched {
-                Some(work.evaluations)
-            } else {
-                done(work.evaluations)
-            },
-            steps: searched.then_some(work.steps),
-            node_tests: if hierarchy {
-                Some(work.node_tests)
-            } else {
-                done(work.node_tests)
-            },
-            samples: done(work.samples),
-            skips: done(work.skips),
-        }
-    }
 }
 
 /// Agreement with the truth in which mirrors are seen in mirrors.

@@ -26,7 +26,7 @@ pub use maps::{
 pub use record::{ColorError, Comparison, Coverage, Mismatch, NonFinite, Region, Regions};
 pub use stats::{PairedDifference, Summary, Timing, paired};
 pub use temporal::{Jitter, Temporal, temporal};
-pub use vertices::{Discard, OffsetShare, VertexReport, mean_work, vertex_errors, vertex_report};
+pub use vertices::{Discard, OffsetShare, VertexReport, vertex_errors, vertex_report};
 
 use thiserror::Error;
 

@@ -57,10 +57,11 @@ pub struct Timing {
     pub p99: f64,
     /// Largest sample.
     pub max: f64,
-    /// Lower end of the median's 95 % bootstrap interval.
-    pub median_low: f64,
+    /// Lower end of the median's 95 % bootstrap interval; `None` with fewer than
+    /// [`FEWEST_FOR_INTERVAL`] samples.
+    pub median_low: Option<f64>,
     /// Upper end of the median's 95 % bootstrap interval.
-    pub median_high: f64,
+    pub median_high: Option<f64>,
 }
 
 impl Timing {
@@ -71,7 +72,7 @@ impl Timing {
         let median = percentile(&sorted, 0.5)?;
         let squares: f64 = sorted.iter().map(|sample| (sample - mean).powi(2)).sum();
         let deviations = self::sorted(sorted.iter().map(|sample| (sample - median).abs()));
-        let (median_low, median_high) = bootstrap_median(&sorted)?;
+        let (median_low, median_high) = bootstrap_median(&sorted).unzip();
         Some(Self {
             median,
             mad: percentile(&deviations, 0.5)?,
@@ -103,7 +104,7 @@ pub struct PairedDifference {
 }
 
 /// Compares two series whose samples were taken in turn (a, b, a, b, …); what one has more is left
-/// out. `None` if there are no pairs.
+/// out. `None` with fewer than [`FEWEST_FOR_INTERVAL`] pairs.
 pub fn paired(a: &[f64], b: &[f64]) -> Option<PairedDifference> {
     let differences = sorted(a.iter().zip(b).map(|(a, b)| b - a));
     let median = percentile(&differences, 0.5)?;
@@ -142,25 +143,33 @@ fn mean(samples: &[f64]) -> Option<f64> {
     (!samples.is_empty()).then(|| samples.iter().sum::<f64>() / samples.len() as f64)
 }
 
+/// With fewer samples, not even from the smallest to the largest is a 95 % interval of the median:
+/// all n lie on one side of it once in 2ⁿ⁻¹ times.
+pub const FEWEST_FOR_INTERVAL: usize = 6;
+
 /// Resamples per interval: the ends of a 95 % interval then rest on 50 resamples each.
 const RESAMPLES: usize = 2000;
 const SEED: u64 = 0x6361_746f_7074_7269;
 
-/// 95 % percentile-bootstrap interval of the median of ascending samples.
+/// 95 % percentile-bootstrap interval of the median of ascending samples; `None` of fewer than
+/// [`FEWEST_FOR_INTERVAL`].
 fn bootstrap_median(sorted_samples: &[f64]) -> Option<(f64, f64)> {
     let count = sorted_samples.len();
+    if count < FEWEST_FOR_INTERVAL {
+        return None;
+    }
     let mut random = SplitMix(SEED);
     let mut picked = vec![0; count];
-    let medians = sorted((0..RESAMPLES).filter_map(|_| {
+    let medians = sorted((0..RESAMPLES).map(|_| {
         // Picking places instead of values keeps the selection free of comparisons of floats.
         picked.fill_with(|| random.below(count));
-        let (_, &mut upper, _) = (count > 0).then(|| picked.select_nth_unstable(count / 2))?;
+        let (_, &mut upper, _) = picked.select_nth_unstable(count / 2);
         let lower = if count % 2 == 1 {
             upper
         } else {
-            *picked[..count / 2].iter().max()?
+            *picked[..count / 2].iter().max().expect("there are samples")
         };
-        Some((sorted_samples[lower] + sorted_samples[upper]) / 2.0)
+        (sorted_samples[lower] + sorted_samples[upper]) / 2.0
     }));
     Some((percentile(&medians, 0.025)?, percentile(&medians, 0.975)?))
 }
@@ -199,6 +208,8 @@ mod tests {
         assert_eq!(Summary::of([]), None);
         assert_eq!(Timing::of(&[]), None);
         assert_eq!(paired(&[], &[1.0]), None);
+        assert_eq!(paired(&[1.0; 5], &[2.0; 5]), None);
+        assert!(paired(&[1.0; 6], &[2.0; 6]).is_some());
     }
 
     #[test]
@@ -213,8 +224,8 @@ mod tests {
         assert_eq!((timing.min, timing.max, timing.samples), (2.0, 9.0, 8));
         assert_eq!((timing.mean, timing.median, timing.mad), (5.0, 4.5, 0.5));
         assert!((timing.sigma - (32.0_f64 / 7.0).sqrt()).abs() < 1e-12);
-        assert!(timing.median_low >= 2.0 && timing.median_low <= 4.5);
-        assert!(timing.median_high <= 9.0 && timing.median_high >= 4.5);
+        let (low, high) = (timing.median_low.unwrap(), timing.median_high.unwrap());
+        assert!((2.0..=4.5).contains(&low) && (4.5..=9.0).contains(&high));
         assert_eq!(
             Timing::of(&[2.0, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 9.0]),
             Some(timing)
@@ -225,7 +236,7 @@ mod tests {
     fn a_single_sample_is_its_own_everything() {
         let timing = Timing::of(&[3.0]).unwrap();
         assert_eq!((timing.median, timing.sigma, timing.mad), (3.0, 0.0, 0.0));
-        assert_eq!((timing.median_low, timing.median_high), (3.0, 3.0));
+        assert_eq!((timing.median_low, timing.median_high), (None, None));
     }
 
     #[test]
@@ -237,7 +248,7 @@ mod tests {
                     .map(|_| random.below(1_000_000) as f64 / 1e6)
                     .collect();
                 let timing = Timing::of(&sample).unwrap();
-                timing.median_low <= 0.5 && 0.5 <= timing.median_high
+                timing.median_low <= Some(0.5) && Some(0.5) <= timing.median_high
             })
             .count();
         // 95 % of 400 is 380, sigma 4.4; the percentile bootstrap is a little off.

@@ -1,6 +1,6 @@
 //! Per-vertex answers of a search against the exact reflection points.
 
-use catoptric_frame::{TrueVertex, VertexClass, VertexResult, VertexState, Work};
+use catoptric_frame::{TrueVertex, VertexClass, VertexResult, VertexState};
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
@@ -140,24 +140,6 @@ pub fn vertex_report(
     })
 }
 
-/// Mean work per (object vertex, mirror) pair; `None` without results.
-pub fn mean_work(results: &[VertexResult]) -> Option<Work> {
-    let pairs = results.chunk_by(same_pair).count();
-    let mean = |count: fn(&VertexResult) -> u32| {
-        results
-            .iter()
-            .map(|result| f64::from(count(result)))
-            .sum::<f64>()
-            / pairs as f64
-    };
-    (pairs > 0).then(|| Work {
-        evaluations: mean(|result| result.evaluations),
-        steps: mean(|result| result.steps),
-        node_tests: mean(|result| result.node_tests),
-        ..Work::default()
-    })
-}
-
 /// Found − true in pixels for every (object vertex, mirror) pair, to be followed over frames by
 /// [`temporal`](crate::temporal()); `None` where no true point is in view or nothing was found. Where
 /// there are several solutions, the pair of found and true point that is nearest to each other.
@@ -279,7 +261,6 @@ mod tests {
         assert_eq!(report.offset_px.unwrap().max, 0.0);
         assert_eq!(report.discard, Discard::default());
         assert_eq!((report.hole, report.enlarged), (None, None));
-        assert_eq!(mean_work(&results).unwrap().evaluations, 13.0);
     }
 
     #[test]
@@ -375,7 +356,6 @@ mod tests {
     fn nothing_searched_gives_no_numbers() {
         let report = report(&[], &[]);
         assert_eq!((report.recall, report.offset_px), (None, None));
-        assert_eq!(mean_work(&[]), None);
         let truth = [truth(REFLECTED, &[[1.0, 1.0]])];
         assert!(matches!(
             vertex_report(&[], &truth, |_, _| true),

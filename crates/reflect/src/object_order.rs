@@ -91,13 +91,15 @@ impl Technique for ObjectOrder {
     fn output(&self, gpu: &Gpu) -> Output {
         let efforts = self.refine.efforts(gpu, &self.stage);
         let vertices = (self.refine).vertices(gpu, &self.stage, self.search.as_ref());
+        let hierarchy = vertices.iter().any(|vertex| vertex.hole.is_some());
         Output {
             frame: self.stage.layers(gpu),
+            may_be_unresolved: false,
             vertices: Some(vertices),
             searched: efforts.searched,
             triangles: Some(self.refine.triangles(gpu, &self.stage)),
             t_junctions: (self.refine).t_junctions(gpu, &self.stage, self.search.as_ref()),
-            work: efforts.mean(),
+            work: efforts.mean(hierarchy),
             notes: self.refine.notes(),
             traced: None,
         }

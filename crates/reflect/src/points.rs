@@ -125,13 +125,14 @@ impl Efforts {
         self.node_tests += other.node_tests;
     }
 
-    /// Means per point searched for.
-    pub(crate) fn mean(&self) -> Work {
-        let mean = |total: u64| total as f64 / self.searched.max(1) as f64;
+    /// Means per point searched for: node tests in place of steps where the search goes through a
+    /// hierarchy.
+    pub(crate) fn mean(&self, hierarchy: bool) -> Work {
+        let mean = |total: u64| (self.searched > 0).then(|| total as f64 / self.searched as f64);
         Work {
-            steps: mean(self.steps),
+            steps: mean(self.steps).filter(|_| !hierarchy),
             evaluations: mean(self.evaluations),
-            node_tests: mean(self.node_tests),
+            node_tests: mean(self.node_tests).filter(|_| hierarchy),
             ..Work::default()
         }
     }

@@ -61,6 +61,9 @@ pub(crate) trait Technique {
 pub struct Output {
     /// All layers.
     pub frame: Frame,
+    /// Whether mirror pixels may be left without an answer; else that there is none counts as
+    /// seeing nothing.
+    pub may_be_unresolved: bool,
     /// By mirror, object, vertex; `None` for techniques that search no vertices.
     pub vertices: Option<Vec<VertexResult>>,
     /// Searches that were run, those of a refinement's new points included; 0 without a search.

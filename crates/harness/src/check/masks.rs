@@ -22,6 +22,10 @@ pub struct Masks {
     pub after_one: Vec<bool>,
     /// Likewise after as many reflections, more than one.
     pub after_more: Vec<bool>,
+    /// No reflection.
+    pub direct: Vec<bool>,
+    /// One reflection, and not counted apart.
+    pub once: Vec<bool>,
     /// At most one reflection, and not counted apart.
     pub shallow: Vec<bool>,
     /// More reflections, and not counted apart.
@@ -75,6 +79,8 @@ impl Masks {
             mirror_more: mask(&|at| mirror(at) && reflections(at) > 1),
             after_one: mask(&|at| same_reflected(at) && reflections(at) == 1),
             after_more: mask(&|at| same_reflected(at) && reflections(at) > 1),
+            direct: mask(&|at| !below(at) && reflections(at) == 0),
+            once: mask(&|at| !below(at) && reflections(at) == 1),
             shallow: mask(&|at| !below(at) && reflections(at) <= 1),
             deep: mask(&|at| !below(at) && reflections(at) > 1),
             apart: (0..count)

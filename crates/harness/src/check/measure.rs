@@ -292,7 +292,10 @@ fn color_layers(
     let off = apart(theirs, &ours.color);
     let beyond = color::beyond(theirs, &ours.color, ours.side);
     let of = |name, mask: &[bool], least| Layer::color(name, mask, &off, &beyond, within, least);
-    let mut layers = vec![of("R G B", &masks.shallow, limit.agree)];
+    let mut layers = vec![of("R G B", &masks.direct, limits::AGREE)];
+    if masks.once.contains(&true) {
+        layers.push(of("R G B reflected", &masks.once, limit.agree));
+    }
     if masks.deep.contains(&true) {
         layers.push(of("R G B 2+", &masks.deep, limits::agree_deep(ours.start)));
     }

@@ -72,6 +72,7 @@ impl Verdict<'_> {
     fn of(&self, layer: &Layer) -> &'static str {
         match (&self.case.stale, layer.passed) {
             (Some(_), _) => "stale",
+            (None, true) if layer.pixels == 0 => "nothing to compare",
             (None, true) => "ok",
             (None, false) => "falls short",
         }

@@ -115,22 +115,25 @@ fn angles(row: &Record) -> Option<String> {
 
 fn coverage(row: &Record) -> Option<String> {
     let coverage = row.coverage.as_ref()?;
-    let because = |reason: &'static str| if row.triangles.is_some() { reason } else { "" };
+    let hidden = row
+        .vertices
+        .as_ref()
+        .is_some_and(|vertices| vertices.hidden > 0);
+    let drops = hidden && row.triangles.is_some() && !row.technique.contains("hidden=extend");
     let mut parts = Vec::new();
     if let Some(missing) = coverage.missing.filter(|share| *share > 0.0) {
-        let reason = because(
-            ": a triangle is dropped as soon as one of its corners is hidden, and a straight edge cannot follow a \
-             curved outline",
-        );
+        let reason = match drops {
+            true => "; a triangle is dropped as soon as one of its corners is hidden",
+            false => "",
+        };
         parts.push(format!(
             "{} of the mirror pixels miss a reflection that is there{reason}",
             percent(missing)
         ));
     }
     if let Some(extra) = coverage.extra.filter(|share| *share > 0.0) {
-        let reason = because(", the same straight edges bulging outwards");
         parts.push(format!(
-            "{} show an object where there is only background{reason}",
+            "{} show an object where there is only background",
             percent(extra)
         ));
     }
@@ -179,11 +182,10 @@ fn vertices(row: &Record) -> Option<String> {
             };
             let far = vertices.offset_share.map_or(0.0, |share| share.over_5);
             if far > 0.01 {
-                text += &format!(
-                    ". For {} of them it is more than 5 px: a walk from texel to texel ends where no \
-                     neighbour is better, and it cannot cross an object that covers a part of the mirror",
-                    percent(far)
-                );
+                text += &format!(". For {} of them it is more than 5 px", percent(far));
+                if row.technique.starts_with("linear") {
+                    text += ": a walk from texel to texel ends where no neighbour is better";
+                }
             }
         }
         None if vertices.reflected > 0 => text += ", none of which was found",
@@ -227,12 +229,11 @@ fn cost(row: &Record) -> Option<String> {
         .passes
         .as_ref()
         .and_then(|passes| passes.iter().max_by(|a, b| a.1.total_cmp(&b.1)));
-    if let (Some((name, time)), true) = (longest, frame.median > 0.0) {
-        text += &format!(
-            ", {} of it in the pass <i>{}</i>",
-            percent((time / frame.median).min(1.0)),
-            escape(name)
-        );
+    let passes = times.passes.iter().flatten();
+    let total: f64 = passes.map(|(_, time)| time).sum();
+    if let (Some((name, time)), true) = (longest, total > 0.0) {
+        let share = percent(time / total);
+        text += &format!(", {share} of it in the pass <i>{}</i>", escape(name));
     }
     Some(format!("{text}.{work}"))
 }
@@ -262,19 +263,23 @@ pub fn time_difference(a: &Record, b: &Record) -> Option<String> {
     } else {
         (&first.wall_ms, &second.wall_ms)
     };
-    let difference = paired(first, second)?;
     let (a, b) = (&a.technique, &b.technique);
+    let Some(difference) = paired(first, second) else {
+        let samples = first.len().min(second.len());
+        return Some(format!(
+            "{samples} frames of each are too few to say whether {a} or {b} is faster."
+        ));
+    };
     Some(if difference.significant {
-        let word = if difference.median > 0.0 {
-            "slower"
-        } else {
-            "faster"
+        let (word, low, high) = match difference.median > 0.0 {
+            true => ("slower", difference.low, difference.high),
+            false => ("faster", -difference.high, -difference.low),
         };
         format!(
             "{b} is {} ms {word} than {a} (95 % interval of the paired median: {} to {} ms).",
             short(difference.median.abs()),
-            short(difference.low),
-            short(difference.high)
+            short(low),
+            short(high)
         )
     } else {
         format!(
@@ -299,10 +304,16 @@ pub fn noise_floor(rows: &[Record]) -> Option<String> {
             short(angle)
         )
     });
+    let share = match agreement {
+        1.0 => "every mirror pixel of every scene".to_owned(),
+        least => format!(
+            "at least {} of the mirror pixels of a scene",
+            percent(least)
+        ),
+    };
     Some(format!(
-        "The control, the reference's rays traced on the graphics adapter, shows the right object on at least {} \
-         of the mirror pixels of a scene{angle}: differences below that are the measurement's own noise.",
-        percent(agreement)
+        "The control, the reference's rays traced on the graphics adapter, shows the right object on {share}{angle}: \
+         differences below that are the measurement's own noise."
     ))
 }
 
@@ -320,7 +331,10 @@ pub fn lead(rows: &[Record], techniques: &[String]) -> Vec<String> {
             found.sort_by(|a, b| a.0.total_cmp(&b.0));
             let ((low, worst), (high, best)) = (found.first()?, found.last()?);
             Some(if found.len() == 1 {
-                format!("<b>{}</b> shows the right object on {} of the mirror pixels.", escape(technique), percent(*low))
+                format!(
+                    "<b>{}</b> shows the right object on {} of the mirror pixels of <i>{}</i>, the only scene here that it can draw.",
+                    escape(technique), percent(*low), escape(worst)
+                )
             } else {
                 format!(
                     "<b>{}</b> shows the right object on {} (<i>{}</i>) to {} (<i>{}</i>) of the mirror pixels.",

@@ -107,7 +107,7 @@ impl ImageOrder for EnvironmentMap {
     /// One lookup a pixel.
     fn work(&self, _: &Gpu, _: &Stage) -> Work {
         Work {
-            samples: 1.0,
+            samples: Some(1.0),
             ..Work::default()
         }
     }

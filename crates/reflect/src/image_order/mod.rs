@@ -40,6 +40,11 @@ pub(crate) trait ImageOrder {
     /// Work of the last frame: means per mirror pixel.
     fn work(&self, gpu: &Gpu, stage: &Stage) -> Work;
 
+    /// Whether there are rays that the technique can have no answer for.
+    fn may_be_unresolved(&self) -> bool {
+        false
+    }
+
     /// Pixel by pixel, what the last frame's rays took; `None` where none are followed step by
     /// step.
     fn traced(&self, _: &Gpu, _: &Stage) -> Option<Traced> {
@@ -111,6 +116,7 @@ impl Technique for Whole {
     fn output(&self, gpu: &Gpu) -> Output {
         Output {
             frame: self.stage.layers(gpu),
+            may_be_unresolved: self.technique.may_be_unresolved(),
             vertices: None,
             searched: 0,
             triangles: None,

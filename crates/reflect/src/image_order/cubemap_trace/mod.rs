@@ -13,7 +13,7 @@ mod pyramid;
 #[cfg(test)]
 mod tests;
 
-use catoptric_frame::{Traced, Work};
+use catoptric_frame::{Image, Traced, Work};
 use catoptric_scene::Scene;
 use encase::ShaderType;
 
@@ -231,24 +231,20 @@ impl ImageOrder for CubemapTrace {
 
     fn work(&self, gpu: &Gpu, stage: &Stage) -> Work {
         let traced = self.traced(gpu, stage).expect("rays are traced here");
-        let pixels = traced.pixels().max(1) as f64;
+        let pixels = traced.pixels() as f64;
+        let mean = |counts: &Image<u32>| {
+            let sum: f64 = counts.pixels().iter().map(|n| f64::from(*n)).sum();
+            (pixels > 0.0).then(|| sum / pixels)
+        };
         Work {
-            samples: traced
-                .samples
-                .pixels()
-                .iter()
-                .map(|n| f64::from(*n))
-                .sum::<f64>()
-                / pixels,
-            skips: traced
-                .skips
-                .pixels()
-                .iter()
-                .map(|n| f64::from(*n))
-                .sum::<f64>()
-                / pixels,
+            samples: mean(&traced.samples),
+            skips: mean(&traced.skips),
             ..Work::default()
         }
+    }
+
+    fn may_be_unresolved(&self) -> bool {
+        true
     }
 
     fn traced(&self, gpu: &Gpu, _: &Stage) -> Option<Traced> {

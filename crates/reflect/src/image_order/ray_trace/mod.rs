@@ -224,12 +224,15 @@ impl ImageOrder for RayTrace {
 
     /// Nodes as `node_tests`, triangles as `evaluations`; hardware does not tell.
     fn work(&self, gpu: &Gpu, stage: &Stage) -> Work {
+        if matches!(self.structure, Structure::Hardware(_)) {
+            return Work::default();
+        }
         let counts: Vec<[u32; 2]> = bytemuck::pod_collect_to_vec(&gpu.read_buffer(&self.counts));
         let mirrors = gpu.read_texture(&stage.gbuffer.position);
         let pixels = mirrors.iter().filter(|texel| texel[3] > 0.0).count();
         let mean = |index: usize| {
             let counts = counts.iter().map(|count| f64::from(count[index]));
-            counts.sum::<f64>() / pixels.max(1) as f64
+            (pixels > 0).then(|| counts.sum::<f64>() / pixels as f64)
         };
         Work {
             node_tests: mean(0),

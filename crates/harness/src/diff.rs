@@ -11,8 +11,8 @@ use crate::cli::Common;
 use crate::exit::{Outcome, bad_input};
 use crate::{print, setup};
 
-/// Compares two EXR pictures: all metrics where both have the layers, colour alone otherwise.
-/// `-o FILE.png` writes a map of the colour error.
+/// Compares two EXR pictures: all metrics where both have the layers, colour alone and why
+/// otherwise. `-o FILE.png` writes a map of the colour error.
 pub fn run(reference: &Path, test: &Path, common: &Common) -> anyhow::Result<Outcome> {
     if let Some(path) = &common.output {
         setup::check_writable(path)?;
@@ -37,7 +37,19 @@ pub fn run(reference: &Path, test: &Path, common: &Common) -> anyhow::Result<Out
             &everywhere,
             DEFAULT_PIXELS_PER_DEGREE,
         )?;
-        json!({ "color": color })
+        let non_finite = |frame: &Frame| {
+            let pixels = frame.color.pixels().iter();
+            pixels.filter(|color| !color.is_finite()).count()
+        };
+        let without = [(reference, &a), (test, &b)]
+            .into_iter()
+            .find(|(_, frame)| !layered(frame));
+        let (path, _) = without.expect("one has no layers");
+        json!({
+            "color": color,
+            "non_finite": { "reference": non_finite(&a), "test": non_finite(&b) },
+            "note": format!("colour alone, over the whole picture: {} has no layers of mirrors", path.display()),
+        })
     };
     if let Some(path) = &common.output {
         let map = color_error(&a, &b);

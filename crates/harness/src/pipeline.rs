@@ -240,6 +240,13 @@ pub fn record(
             // With a refinement, those are not the scene's vertices alone.
             let searched = rendered.output.searched;
             row.vertices = Some(VertexReport { searched, ..report });
+            if row.technique.contains('+') {
+                row.meta.notes.push(
+                    "vertices.searched counts the refinement's searches; the rest of vertices is about \
+                     the scene's own vertices"
+                        .to_owned(),
+                );
+            }
         }
         Some(Err(reason)) => row.meta.notes.push(reason),
         None => {}

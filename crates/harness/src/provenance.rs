@@ -1,6 +1,5 @@
 //! Where numbers come from: command line, source revision, date.
 
-use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use crate::record::Meta;
@@ -36,24 +35,11 @@ fn command_line(args: impl Iterator<Item = String>) -> String {
         .join(" ")
 }
 
-/// Revision of the sources, with `-dirty` where they differ from it; `None` without git or
-/// outside a checkout.
+/// Revision of the sources that the program was built from, with `-dirty` where they differed from
+/// it; `None` where it was not built in a git checkout.
 fn revision() -> Option<String> {
-    let folder = env!("CARGO_MANIFEST_DIR");
-    let output = Command::new("git")
-        .args([
-            "-C",
-            folder,
-            "describe",
-            "--always",
-            "--dirty",
-            "--abbrev=12",
-            "--exclude=*",
-        ])
-        .output()
-        .ok()?;
-    let text = String::from_utf8(output.stdout).ok()?;
-    (output.status.success() && !text.trim().is_empty()).then(|| text.trim().to_owned())
+    let revision = env!("CATOPTRIC_REVISION");
+    (!revision.is_empty()).then(|| revision.to_owned())
 }
 
 /// RFC 3339 in UTC, to the second.

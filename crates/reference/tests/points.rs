@@ -386,12 +386,20 @@ fn meshes_have_no_exact_points() {
     let mesh = Shape::Mesh(Mesh::default());
     let error = reflection_points(&mesh, DVec3::Z, DVec3::Y).unwrap_err();
     assert!(error.to_string().contains("mesh mirror"), "{error}");
-    let scene = scene(
-        camera([0.0, 0.0, 4.0], 30.0, [8, 8]),
-        vec![],
-        vec![unit_sphere(), mesh],
-    );
-    assert!(true_vertices(&scene, &scene.camera.view([8, 8])).is_err());
+    let points = || object("point", vec![Vec3::new(0.0, 0.0, 3.0)], vec![], Vec3::ONE);
+    let of = |mirrors| {
+        let scene = scene(
+            camera([0.0, 0.0, 4.0], 30.0, [8, 8]),
+            vec![points()],
+            mirrors,
+        );
+        true_vertices(&scene, &scene.camera.view([8, 8]))
+    };
+    assert!(of(vec![mesh.clone()]).is_err());
+    // Another mirror's are not lost for it.
+    let classes = of(vec![unit_sphere(), mesh]).unwrap();
+    let classes: Vec<_> = classes.iter().map(|vertex| vertex.class).collect();
+    assert_eq!(classes, [VertexClass::Reflected, VertexClass::Unknown]);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! `catoptric report`: measure a suite of scenes and write one page about it.
 //!
-//! Measuring writes `record.json` and pictures into the folder, after every scene; the page is
-//! made from those alone, so that the same record gives the same bytes.
+//! Measuring writes `record.json`, pictures and the page into the folder, after every scene; the
+//! page is made from the others alone, so that the same record gives the same bytes.
 
 mod diagrams;
 pub mod page;
@@ -83,9 +83,10 @@ pub fn run(suite: SuiteArg, time_budget: Option<f64>, common: &Common) -> anyhow
         if let Some(measured) = measured {
             pictures::write(&measured, &folder, |_| true)?;
         }
-        record::write(rows, &record_path)
+        record::write(rows, &record_path)?;
+        page::write(rows, setup.rows(), &folder).map(drop)
     })?;
-    let index = page::write(&rows, &folder)?;
+    let index = page::write(&rows, setup.rows(), &folder)?;
 
     crate::print::text(&format!("{}\n", index.display()))?;
     let failed = rows
@@ -96,6 +97,13 @@ pub fn run(suite: SuiteArg, time_budget: Option<f64>, common: &Common) -> anyhow
         eprintln!(
             "catoptric: {failed} of {} rows failed; the report says why",
             rows.len()
+        );
+    }
+    if rows.len() < setup.rows() {
+        eprintln!(
+            "catoptric: interrupted after {} of {} rows; the report says so",
+            rows.len(),
+            setup.rows()
         );
     }
     Ok(if failed > 0 || rows.len() < setup.rows() {

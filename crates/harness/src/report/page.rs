@@ -24,6 +24,8 @@ pub struct Fact {
 #[derive(Template)]
 #[template(path = "report.html")]
 struct Page<'r> {
+    /// How many rows of how many, where some are missing.
+    unfinished: Option<String>,
     lead: Vec<String>,
     noise_floor: Option<String>,
     hero: Option<Hero<'r>>,
@@ -46,15 +48,15 @@ struct Hero<'r> {
     technique: &'r views::Technique,
 }
 
-/// Writes `index.html` into the report's folder.
-pub fn write(rows: &[Record], folder: &Path) -> anyhow::Result<PathBuf> {
+/// Writes `index.html` into the report's folder. Of `wanted` rows some may not be measured yet.
+pub fn write(rows: &[Record], wanted: usize, folder: &Path) -> anyhow::Result<PathBuf> {
     let path = folder.join("index.html");
-    write_whole(&path, render(rows)?.as_bytes())?;
+    write_whole(&path, render(rows, wanted)?.as_bytes())?;
     Ok(path)
 }
 
 /// The page as text.
-pub fn render(rows: &[Record]) -> anyhow::Result<String> {
+fn render(rows: &[Record], wanted: usize) -> anyhow::Result<String> {
     let techniques = views::techniques(rows);
     let scenes = views::scenes(rows, &techniques)?;
     let hero = scenes.iter().find_map(|scene| {
@@ -64,6 +66,7 @@ pub fn render(rows: &[Record]) -> anyhow::Result<String> {
         })
     });
     let page = Page {
+        unfinished: (rows.len() < wanted).then(|| format!("{} of {wanted}", rows.len())),
         lead: words::lead(rows, &techniques),
         noise_floor: words::noise_floor(rows),
         hero,
@@ -168,16 +171,18 @@ mod tests {
     #[test]
     fn the_same_record_gives_the_same_bytes() {
         let rows = [measured("a-scene", "linear"), blank("other", "linear")];
-        assert_eq!(render(&rows).unwrap(), render(&rows).unwrap());
+        assert_eq!(render(&rows, 2).unwrap(), render(&rows, 2).unwrap());
     }
 
     #[test]
     fn numbers_reasons_and_pictures_are_on_the_page() {
-        let html = render(&[
+        let rows = [
             measured("a-scene", "linear(residual=cross)"),
             blank("other", "linear"),
-        ])
-        .unwrap();
+        ];
+        let html = render(&rows, 2).unwrap();
+        assert!(!html.contains("Not finished"));
+        assert!(render(&rows, 5).unwrap().contains("2 of 5 measurements"));
         for text in [
             "98.1 %",
             "no such model",
@@ -199,12 +204,12 @@ mod tests {
 
     #[test]
     fn names_cannot_break_out_of_the_page() {
-        let html = render(&[measured("<script>x</script>", "linear")]).unwrap();
+        let html = render(&[measured("<script>x</script>", "linear")], 1).unwrap();
         assert!(!html.contains("<script>x"));
     }
 
     #[test]
     fn an_empty_record_is_a_page() {
-        assert!(render(&[]).unwrap().contains("</html>"));
+        assert!(render(&[], 0).unwrap().contains("</html>"));
     }
 }

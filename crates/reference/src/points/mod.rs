@@ -23,7 +23,7 @@ pub mod sphere;
 mod stationary;
 
 use catoptric_frame::{Frame, Status, TrueVertex, VertexClass};
-use catoptric_scene::{Scene, Shape, View};
+use catoptric_scene::{Mirror, Scene, Shape, View};
 use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -173,14 +173,13 @@ fn seen(shape: &Shape, eye: DVec3) -> impl Fn(DVec3) -> bool {
 /// the objects' unique positions, all in scene order. The answer for mirror `m`, object `o`,
 /// vertex `v` is at `m · scene.vertex_count()` + the positions of all objects before `o` + `v`.
 ///
+/// Beside an analytic mirror, the answers for a mesh are [`VertexClass::Unknown`].
+///
 /// # Errors
-/// If any mirror has none ([`reflection_points`]).
+/// If no mirror has exact answers ([`reflection_points`]).
 pub fn true_vertices(scene: &Scene, view: &View) -> Result<Vec<TrueVertex>, NotAvailable> {
-    if scene
-        .mirrors
-        .iter()
-        .any(|mirror| !mirror.shape.is_analytic())
-    {
+    let analytic = |mirror: &Mirror| mirror.shape.is_analytic();
+    if !scene.mirrors.iter().any(analytic) {
         return Err(mesh());
     }
     let positions: Vec<DVec3> = scene
@@ -195,7 +194,10 @@ pub fn true_vertices(scene: &Scene, view: &View) -> Result<Vec<TrueVertex>, NotA
         .with_min_len(64)
         .map(|index| {
             let (mirror, vertex) = (&mirrors[index / count], positions[index % count]);
-            let solutions = reflection_points(&mirror.shape, view.eye, vertex)?;
+            let solutions = match analytic(mirror) {
+                true => reflection_points(&mirror.shape, view.eye, vertex)?,
+                false => Solutions::none(VertexClass::Unknown),
+            };
             let project = |point: DVec3| (point, view.project(point).map(|(at, _)| at));
             Ok(TrueVertex {
                 class: solutions.class,

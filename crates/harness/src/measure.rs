@@ -145,7 +145,7 @@ mod tests {
             samples.passes(),
             Ok(vec![("search".to_owned(), 2.0), ("draw".to_owned(), 0.5)])
         );
-        assert_eq!(samples.gpu(), Some(vec![1.0, 2.0, 9.0]));
+        assert_eq!(samples.gpu(), Some(vec![1.5, 2.5, 9.5]));
     }
 
     #[test]

@@ -61,46 +61,58 @@ struct Family {
     prefix: &'static str,
     template: &'static str,
     /// The key, with the template's own number.
-    line: (&'static str, u32),
+    line: (&'static str, &'static str),
     /// What their names end with, and their numbers.
-    sizes: &'static [(&'static str, u32)],
+    sizes: &'static [(&'static str, &'static str)],
 }
 
 /// Cells along each side of a grid of about so many vertices.
-const GRID_SIZES: &[(&str, u32)] = &[
-    ("100", 9),
-    ("300", 16),
-    ("1k", 31),
-    ("3k", 54),
-    ("10k", 99),
-    ("30k", 172),
-    ("100k", 315),
+const GRID_SIZES: &[(&str, &str)] = &[
+    ("100", "9"),
+    ("300", "16"),
+    ("1k", "31"),
+    ("3k", "54"),
+    ("10k", "99"),
+    ("30k", "172"),
+    ("100k", "315"),
 ];
 
-const FAMILIES: [Family; 3] = [
+const FAMILIES: [Family; 4] = [
     Family {
         prefix: "sphere-grid-full-",
         template: include_str!("../../../scenes/template-sphere-grid-full.toml"),
-        line: ("n", 8),
+        line: ("n", "8"),
         sizes: GRID_SIZES,
     },
     Family {
         prefix: "sphere-grid-",
         template: include_str!("../../../scenes/template-sphere-grid.toml"),
-        line: ("n", 8),
+        line: ("n", "8"),
         sizes: GRID_SIZES,
     },
     Family {
         prefix: "sphere-drawn-",
         template: include_str!("../../../scenes/template-sphere-drawn.toml"),
-        line: ("tessellation", 128),
+        line: ("tessellation", "128"),
         sizes: &[
-            ("8", 8),
-            ("16", 16),
-            ("32", 32),
-            ("64", 64),
-            ("128", 128),
-            ("256", 256),
+            ("8", "8"),
+            ("16", "16"),
+            ("32", "32"),
+            ("64", "64"),
+            ("128", "128"),
+            ("256", "256"),
+        ],
+    },
+    Family {
+        prefix: "prototype-sphere-zoom-",
+        template: include_str!("../../../scenes/prototype-sphere.toml"),
+        line: ("fov_y", "34.0"),
+        sizes: &[
+            ("2", "17.382514"),
+            ("4", "8.741543"),
+            ("8", "4.377139"),
+            ("16", "2.189368"),
+            ("32", "1.094784"),
         ],
     },
 ];
@@ -124,7 +136,7 @@ pub fn text(name: &str) -> Option<String> {
         let size = name.strip_prefix(family.prefix)?;
         let (_, number) = family.sizes.iter().find(|(known, _)| *known == size)?;
         let (key, own) = family.line;
-        let [own, new] = [own, *number].map(|number| format!("\n{key} = {number} "));
+        let [own, new] = [own, *number].map(|number| format!("\n{key} = {number}"));
         Some(family.template.replacen(&own, &new, 1))
     })
 }

@@ -53,6 +53,19 @@ fn a_mirror_is_drawn_with_as_many_segments_as_its_scene_says() {
 }
 
 #[test]
+fn a_zoom_narrows_the_view() {
+    let half_height = |name: &str| {
+        let scene = open(name, &LoadOptions::default()).unwrap();
+        match scene.camera.fov {
+            catoptric_scene::Fov::Y(angle) => (angle.to_radians() / 2.0).tan(),
+            other => panic!("{name}: {other:?}"),
+        }
+    };
+    let ratio = half_height("prototype-sphere") / half_height("prototype-sphere-zoom-32");
+    assert!((ratio - 32.0).abs() < 1e-3, "{ratio}");
+}
+
+#[test]
 fn rooms_have_the_triangles_they_say() {
     for (name, triangles) in [("box", 850), ("room", 4_700), ("atrium", 30_000)] {
         let found = open(name, &LoadOptions::default())

@@ -51,26 +51,22 @@ fn techniques(format: Format) -> anyhow::Result<()> {
     if format == Format::Json {
         return print::json(&Value::Array(rows));
     }
-    let flat: Vec<Value> = rows
-        .into_iter()
-        .map(|mut row| {
-            let options = row["options"].as_array().into_iter().flatten();
-            let text = options.map(|option| {
-                format!(
-                    "{}={}",
-                    print::cell(option.get("name")),
-                    print::cell(option.get("default"))
-                )
-            });
-            row["options"] = text.collect::<Vec<_>>().join(",").into();
-            row
-        })
-        .collect();
-    print::listing(
-        &flat,
-        &["name", "available", "options", "what", "paper", "reason"],
-        format,
-    )
+    let lines: Vec<Value> = rows.iter().flat_map(lines).collect();
+    let columns = ["name", "default", "values", "what", "paper", "reason"];
+    print::listing(&lines, &columns, format)
+}
+
+/// A line for a technique and one for each of its options, indented.
+fn lines(technique: &Value) -> Vec<Value> {
+    let options = technique["options"].as_array().into_iter().flatten();
+    let option = |option: &Value| {
+        let name = print::cell(option.get("name"));
+        json!({ "name": format!("  {name}"), "default": option["default"], "values": option["values"],
+                "what": option["what"] })
+    };
+    let head = json!({ "name": technique["name"], "what": technique["what"], "paper": technique["paper"],
+                       "reason": technique["reason"] });
+    std::iter::once(head).chain(options.map(option)).collect()
 }
 
 fn adapters(common: &Common) -> anyhow::Result<()> {

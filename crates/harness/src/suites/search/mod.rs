@@ -41,10 +41,10 @@ const SEARCHES: [(&str, &str); 5] = [
     (STOPPED, "ray-hierarchy(repair=stop)"),
 ];
 
-/// The scenes of Fig. 4.3, by letter.
+/// The scenes of Fig. 4.3, by letter; the first two with their number of vertices.
 const CASES: [(&str, &str); 4] = [
-    ("a: about 20 000 vertices", "sphere-objects-20k"),
-    ("b: about 1 000 vertices", "sphere-objects-1k"),
+    ("a: 20 000", "sphere-objects-20k"),
+    ("b: 1 000", "sphere-objects-1k"),
     ("c: holes", "sphere-grid-3k"),
     ("d: early stop", "sphere-grid-1k"),
 ];

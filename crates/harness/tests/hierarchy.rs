@@ -3,26 +3,11 @@
 mod support;
 
 use serde_json::Value;
-use support::{catoptric, code, gpu_or_skip, json, stderr};
+use support::{gpu_or_skip, rows};
 
 /// How far a measured value may be from the expected one, as a share of it: the expected values
 /// come from an independent f64 program and other random vertices of the same distribution.
 const THIRD: f64 = 1.0 / 3.0;
-
-/// Rows of a scene by several techniques.
-fn rows(scene: &str, techniques: &[&str]) -> Vec<Value> {
-    let given = techniques.iter().flat_map(|technique| ["-t", technique]);
-    let args: Vec<&str> = ["compare", scene, "--format", "json", "--time-budget", "0.1"]
-        .into_iter()
-        .chain(given)
-        .collect();
-    let output = catoptric(&args);
-    assert_eq!(code(&output), 0, "{}", stderr(&output));
-    match json(&output) {
-        Value::Array(rows) => rows,
-        other => panic!("no array: {other}"),
-    }
-}
 
 fn near(row: &Value, what: &str, found: Option<f64>, expected: f64) {
     let found = found.unwrap_or_else(|| panic!("{what}: {row}"));

@@ -186,6 +186,12 @@ const LINEAR: &[OptionInfo] = &[
     ),
 ];
 
+const NEWTON: &[OptionInfo] = &[words(
+    "start",
+    &["center", "bounds", "previous"],
+    "where the iteration starts: the mirror's projected centre, its projected bounding box's, or the previous frame's answer",
+)];
+
 const RAY_HIERARCHY: &[OptionInfo] = &[
     words(
         "repair",
@@ -501,12 +507,15 @@ pub const TECHNIQUES: &[TechniqueInfo] = &[
         maker: Maker::Search(search::reflector_cubemap::make),
         objection: search::reflector_cubemap::objection,
     },
-    later(
-        "newton",
-        "Newton's method on the G-buffer, sub-pixel",
-        Family::Search,
-        "this project",
-    ),
+    TechniqueInfo {
+        name: "newton",
+        what: "Newton's method on the G-buffer, sub-pixel",
+        family: Family::Search,
+        paper: "this project",
+        options: &[NEWTON, SEARCH, EVERY],
+        maker: Maker::Search(search::newton::make),
+        objection: any_scene,
+    },
     later(
         "swept-boxes",
         "watertight pyramid, all solutions",

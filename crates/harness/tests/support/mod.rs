@@ -72,3 +72,18 @@ pub fn files(folder: &Path) -> Vec<String> {
         })
         .collect()
 }
+
+/// Rows of a scene by several techniques, in its own size.
+pub fn rows(scene: &str, techniques: &[&str]) -> Vec<Value> {
+    let given = techniques.iter().flat_map(|technique| ["-t", technique]);
+    let args: Vec<&str> = ["compare", scene, "--format", "json", "--time-budget", "0.1"]
+        .into_iter()
+        .chain(given)
+        .collect();
+    let output = catoptric(&args);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    match json(&output) {
+        Value::Array(rows) => rows,
+        other => panic!("no array: {other}"),
+    }
+}

@@ -4,13 +4,16 @@
 //! [`Points`]: the scene's vertices, a refinement's new points, a grid's corners.
 
 pub(crate) mod linear;
+pub(crate) mod newton;
 pub(crate) mod ray_hierarchy;
 pub(crate) mod reflector_cubemap;
+mod start;
 
 use crate::ReflectError;
 use crate::gpu::Gpu;
 use crate::points::Points;
 use crate::recorder::Recorder;
+use crate::resources::{compute, module};
 use crate::spec::Options;
 use crate::stage::Stage;
 use crate::technique::Variant;
@@ -74,6 +77,62 @@ impl Account {
             Self::Efforts => "count",
             Self::Path => "path",
         }
+    }
+}
+
+/// A search's shader, ready for both variants of a frame.
+struct Pipelines {
+    plain: wgpu::ComputePipeline,
+    /// Tells what [`Context::account`] asks for.
+    telling: wgpu::ComputePipeline,
+}
+
+impl Pipelines {
+    /// Of a program with an entry point `search`; `own` is the layout of its group 3.
+    fn new(
+        context: &Context<'_>,
+        program: &str,
+        features: &[&str],
+        own: &wgpu::BindGroupLayout,
+    ) -> Result<Self, ReflectError> {
+        let Context { gpu, stage, .. } = context;
+        let pipeline = |features: &[&str]| -> Result<_, ReflectError> {
+            let layouts = [
+                Some(&stage.world.view_layout),
+                Some(&stage.gbuffer.mirror_layout),
+                Some(context.points_layout),
+                Some(own),
+            ];
+            let module = module(gpu, program, features)?;
+            Ok(compute(gpu, &module, "search", &layouts))
+        };
+        let telling = [features, &[context.account.feature()]].concat();
+        Ok(Self {
+            plain: pipeline(features)?,
+            telling: pipeline(&telling)?,
+        })
+    }
+
+    /// Records the pass `search`: one thread a point.
+    fn record(
+        &self,
+        frame: &mut Recorder<'_>,
+        (stage, mirror): (&Stage, usize),
+        points: &Points,
+        own: &wgpu::BindGroup,
+        variant: Variant,
+    ) {
+        frame.compute("search", |pass| {
+            pass.set_pipeline(match variant {
+                Variant::AllLayers => &self.telling,
+                Variant::Color => &self.plain,
+            });
+            pass.set_bind_group(0, &stage.world.view_group, &[]);
+            pass.set_bind_group(1, &stage.gbuffer.mirror_groups[mirror], &[]);
+            pass.set_bind_group(2, &points.group, &[]);
+            pass.set_bind_group(3, own, &[]);
+            points.run(pass);
+        });
     }
 }
 

@@ -9,13 +9,13 @@ pub(crate) mod walk;
 use catoptric_scene::{Mirror, Scene, Shape};
 use wgpu::util::{DeviceExt, TextureDataOrder};
 
-use super::{Context, Search};
+use super::{Context, Pipelines, Search};
 use crate::ReflectError;
 use crate::data::ReflectorCubemapSettings;
 use crate::gpu::Gpu;
 use crate::points::Points;
 use crate::recorder::Recorder;
-use crate::resources::{FLOAT4, Slot, compute, group, layout, module, uniform};
+use crate::resources::{FLOAT4, Slot, group, layout, uniform};
 use crate::spec::Options;
 use crate::stage::Stage;
 use crate::technique::Variant;
@@ -45,8 +45,7 @@ struct ReflectorCubemap {
     size: u32,
     settings: wgpu::Buffer,
     layout: wgpu::BindGroupLayout,
-    search: wgpu::ComputePipeline,
-    counting: wgpu::ComputePipeline,
+    pipelines: Pipelines,
     mirrors: Vec<OnGpu>,
     /// How often a mirror's maps were made.
     builds: u32,
@@ -68,29 +67,17 @@ impl ReflectorCubemap {
             gpu,
             options,
             stage,
-            points_layout,
             ..
         } = context;
         let slots = [Slot::Uniform, Slot::Textures, Slot::Textures];
         let layout = layout(gpu, "reflector cube maps", &slots);
         let extend = options.is("hidden", "extend").then_some("extend");
-        let search = |counts: Option<&'static str>| -> Result<_, ReflectError> {
-            let features: Vec<_> = extend.into_iter().chain(counts).collect();
-            let module = module(gpu, "reflector_cubemap", &features)?;
-            let layouts = [
-                Some(&stage.world.view_layout),
-                Some(&stage.gbuffer.mirror_layout),
-                Some(*points_layout),
-                Some(&layout),
-            ];
-            Ok(compute(gpu, &module, "search", &layouts))
-        };
+        let features: Vec<_> = extend.into_iter().collect();
         let settings = settings(options);
         let mut made = Self {
             size: settings.size,
             settings: uniform(gpu, &settings),
-            search: search(None)?,
-            counting: search(Some("count"))?,
+            pipelines: Pipelines::new(context, "reflector_cubemap", &features, &layout)?,
             layout,
             mirrors: Vec::new(),
             builds: 0,
@@ -167,17 +154,8 @@ impl Search for ReflectorCubemap {
         points: &Points,
         variant: Variant,
     ) {
-        frame.compute("search", |pass| {
-            pass.set_pipeline(match variant {
-                Variant::AllLayers => &self.counting,
-                Variant::Color => &self.search,
-            });
-            pass.set_bind_group(0, &stage.world.view_group, &[]);
-            pass.set_bind_group(1, &stage.gbuffer.mirror_groups[mirror], &[]);
-            pass.set_bind_group(2, &points.group, &[]);
-            pass.set_bind_group(3, &self.mirrors[mirror].group, &[]);
-            points.run(pass);
-        });
+        let own = &self.mirrors[mirror].group;
+        (self.pipelines).record(frame, (stage, mirror), points, own, variant);
     }
 }
 

@@ -18,11 +18,11 @@ use crate::data::RepairUniform;
 use crate::gpu::Gpu;
 use crate::points::Points;
 use crate::recorder::Recorder;
-use crate::resources::{Slot, compute, group, layout, module, uniform, view};
+use crate::resources::{Slot, group, layout, uniform, view};
 use crate::stage::Stage;
 use crate::technique::Variant;
 
-use super::{Context, Search};
+use super::{Context, Pipelines, Search};
 use pyramid::Pyramid;
 
 struct RayHierarchy {
@@ -30,8 +30,7 @@ struct RayHierarchy {
     /// The mirror (an index) whose pyramid this frame has made last: one pyramid serves all
     /// mirrors in turn.
     built: Cell<Option<usize>>,
-    search: wgpu::ComputePipeline,
-    counting: wgpu::ComputePipeline,
+    pipelines: Pipelines,
     /// Group 3: pyramid and repair.
     own: wgpu::BindGroup,
 }
@@ -41,8 +40,7 @@ pub(crate) fn make(context: &Context<'_>) -> Result<Box<dyn Search>, ReflectErro
         gpu,
         options,
         stage,
-        points_layout,
-        account,
+        ..
     } = context;
     let pyramid = Pyramid::new(gpu, stage)?;
     let repair = uniform(
@@ -64,26 +62,13 @@ pub(crate) fn make(context: &Context<'_>) -> Result<Box<dyn Search>, ReflectErro
         wgpu::BindingResource::TextureView(&cones),
         repair.as_entire_binding(),
     ];
-    let mut features: Vec<_> = ["enlarge", "stop"]
+    let features: Vec<_> = ["enlarge", "stop"]
         .into_iter()
         .filter(|repair| options.is("repair", repair))
         .collect();
-    let descend = |features: &[&str]| -> Result<_, ReflectError> {
-        let module = module(gpu, "ray_hierarchy/search", features)?;
-        let layouts = [
-            Some(&stage.world.view_layout),
-            Some(&stage.gbuffer.mirror_layout),
-            Some(*points_layout),
-            Some(&own_layout),
-        ];
-        Ok(compute(gpu, &module, "search", &layouts))
-    };
-    let search = descend(&features)?;
-    features.push(account.feature());
     Ok(Box::new(RayHierarchy {
         built: Cell::new(None),
-        search,
-        counting: descend(&features)?,
+        pipelines: Pipelines::new(context, "ray_hierarchy/search", &features, &own_layout)?,
         own: group(gpu, &own_layout, &own),
         pyramid,
     }))
@@ -110,17 +95,7 @@ impl Search for RayHierarchy {
         if self.built.replace(Some(mirror)) != Some(mirror) {
             self.pyramid.record(frame, stage, mirror);
         }
-        frame.compute("search", |pass| {
-            pass.set_pipeline(match variant {
-                Variant::AllLayers => &self.counting,
-                Variant::Color => &self.search,
-            });
-            pass.set_bind_group(0, &stage.world.view_group, &[]);
-            pass.set_bind_group(1, &stage.gbuffer.mirror_groups[mirror], &[]);
-            pass.set_bind_group(2, &points.group, &[]);
-            pass.set_bind_group(3, &self.own, &[]);
-            points.run(pass);
-        });
+        (self.pipelines).record(frame, (stage, mirror), points, &self.own, variant);
     }
 
     fn has_holes(&self) -> bool {

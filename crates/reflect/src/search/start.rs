@@ -1,0 +1,134 @@
+//! Where a search on the G-buffer starts: the texel of a mirror that is nearest to the projection
+//! of its centre, or of its bounding box, found by the pass `start` (`start.wesl`).
+
+use catoptric_scene::{Mirror, View};
+use glam::{DVec2, Vec2};
+
+use super::Context;
+use crate::ReflectError;
+use crate::gpu::Gpu;
+use crate::recorder::Recorder;
+use crate::resources::{Slot, compute, group, layout, module, set_uniform, storage_bytes, uniform};
+use crate::stage::Stage;
+
+/// Side of the pass's workgroups, in texels.
+const GROUP: u32 = 8;
+
+/// The start texels of all mirrors, found anew in each frame.
+pub(super) struct Starts {
+    /// Of a search's group 3: the start texel.
+    pub(super) layout: wgpu::BindGroupLayout,
+    /// One a mirror.
+    pub(super) groups: Vec<wgpu::BindGroup>,
+    from_bounds: bool,
+    nearest: wgpu::ComputePipeline,
+    choose: wgpu::ComputePipeline,
+    mirrors: Vec<Start>,
+}
+
+struct Start {
+    /// Wanted image coordinates.
+    wanted: wgpu::Buffer,
+    /// Texel index, then the square of its distance from the wanted one.
+    texel: wgpu::Buffer,
+    find: wgpu::BindGroup,
+}
+
+impl Starts {
+    /// Reads the option `start`: `bounds`, or anything else for the centre.
+    pub(super) fn new(context: &Context<'_>) -> Result<Self, ReflectError> {
+        let Context {
+            gpu,
+            options,
+            stage,
+            ..
+        } = context;
+        let from_bounds = options.is("start", "bounds");
+        let find = layout(gpu, "start found", &[Slot::Uniform, Slot::Write]);
+        let read = layout(gpu, "start", &[Slot::Read]);
+        let module = module(gpu, "start", &[])?;
+        let layouts = [
+            Some(&stage.world.view_layout),
+            Some(&stage.gbuffer.mirror_layout),
+            Some(&find),
+        ];
+        let mirrors = (0..stage.world.mirrors.len()).map(|index| {
+            let wanted = uniform(gpu, &start_point(stage, index, from_bounds));
+            let texel = storage_bytes(gpu, &[0xff; 8]);
+            let resources = [wanted.as_entire_binding(), texel.as_entire_binding()];
+            Start {
+                find: group(gpu, &find, &resources),
+                wanted,
+                texel,
+            }
+        });
+        let mirrors: Vec<Start> = mirrors.collect();
+        let texels = mirrors.iter().map(|start| start.texel.as_entire_binding());
+        Ok(Self {
+            groups: texels.map(|texel| group(gpu, &read, &[texel])).collect(),
+            layout: read,
+            from_bounds,
+            nearest: compute(gpu, &module, "nearest", &layouts),
+            choose: compute(gpu, &module, "choose", &layouts),
+            mirrors,
+        })
+    }
+
+    /// Takes over where the mirrors are now.
+    pub(super) fn update(&self, gpu: &Gpu, stage: &Stage) {
+        for (index, start) in self.mirrors.iter().enumerate() {
+            let wanted = start_point(stage, index, self.from_bounds);
+            set_uniform(gpu, &start.wanted, &wanted);
+        }
+    }
+
+    /// Forgets the last frame's texels.
+    pub(super) fn begin_frame(&self, gpu: &Gpu) {
+        for start in &self.mirrors {
+            gpu.queue.write_buffer(&start.texel, 0, &[0xff; 8]);
+        }
+    }
+
+    /// Records the pass `start`.
+    pub(super) fn record(&self, frame: &mut Recorder<'_>, stage: &Stage) {
+        let [width, height] = stage.world.size.map(|side| side.div_ceil(GROUP));
+        frame.compute("start", |pass| {
+            pass.set_bind_group(0, &stage.world.view_group, &[]);
+            for (start, mirror) in self.mirrors.iter().zip(&stage.gbuffer.mirror_groups) {
+                pass.set_bind_group(1, mirror, &[]);
+                pass.set_bind_group(2, &start.find, &[]);
+                for pipeline in [&self.nearest, &self.choose] {
+                    pass.set_pipeline(pipeline);
+                    pass.dispatch_workgroups(width, height, 1);
+                }
+            }
+        });
+    }
+}
+
+/// Where a search starts, in image coordinates, before it is moved onto the mirror.
+fn start_point(stage: &Stage, mirror: usize, from_bounds: bool) -> Vec2 {
+    let world = &stage.world;
+    let view = world.scene.camera.view(world.size);
+    let mirror = &world.scene.mirrors[mirror];
+    let middle = DVec2::new(f64::from(view.size[0]), f64::from(view.size[1])) / 2.0;
+    let center = view.project(mirror.shape.center()).map(|(at, _)| at);
+    let start = if from_bounds {
+        bounds_middle(mirror, &view)
+    } else {
+        center.or_else(|| bounds_middle(mirror, &view))
+    };
+    let start = start.unwrap_or(middle);
+    start.clamp(DVec2::ZERO, middle * 2.0 - 1.0).as_vec2()
+}
+
+/// Middle of the box around the projection of what is in front of the eye.
+fn bounds_middle(mirror: &Mirror, view: &View) -> Option<DVec2> {
+    let mesh = mirror.shape.tessellate(mirror.tessellation);
+    let positions = mesh.positions.iter();
+    let projected = positions.filter_map(|position| Some(view.project(position.as_dvec3())?.0));
+    let (low, high) = projected.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), at| {
+        (low.min(at), high.max(at))
+    });
+    low.cmple(high).all().then(|| (low + high) / 2.0)
+}

@@ -1,7 +1,8 @@
 //! GPU time of passes, measured from END stamp to END stamp.
 //!
 //! Stamps at a pass's beginning are not trusted (a software driver gets them wrong once a render
-//! pass has run). The first pass lasts from a lone stamp that was submitted and waited for.
+//! pass has run). The first pass lasts from a lone stamp before it, submitted with the frame once all
+//! that was submitted before has run: neither uploads nor the recording of the frame count.
 //! Passes that do not depend on each other may overlap; then the time of both counts for the one
 //! that ends first.
 
@@ -25,14 +26,21 @@ pub struct FrameTime {
     pub build_ms: Option<f64>,
 }
 
-/// Share of the wall time by which the passes may miss it.
+/// Share of the wall time by which the passes may miss it, beside what an empty submission takes.
 const PASSES_MISS_WALL: f64 = 0.1;
+
+/// Empty submissions that are timed for the median.
+const EMPTY: usize = 5;
 
 /// Hands out END stamps, one a pass.
 #[derive(Debug)]
 pub(crate) struct Timer {
     stamps: Option<wgpu::QuerySet>,
     names: Vec<String>,
+    /// For the lone stamp: some drivers stamp no pass that does nothing.
+    idle: Option<wgpu::ComputePipeline>,
+    /// Wall time of a submission with nothing but the lone stamp, milliseconds.
+    latency_ms: f64,
 }
 
 impl Timer {
@@ -47,10 +55,23 @@ impl Timer {
                 count: Self::CAPACITY,
             })
         });
-        Self {
+        let idle = stamps.is_some().then(|| idle(gpu));
+        let mut timer = Self {
             stamps,
-            names: Vec::new(),
-        }
+            idle,
+            ..Self::none()
+        };
+        let mut empty = [(); EMPTY].map(|()| {
+            let commands = timer.lone_stamp(gpu);
+            gpu.wait();
+            let begin = std::time::Instant::now();
+            gpu.queue.submit([commands]);
+            gpu.wait();
+            begin.elapsed().as_secs_f64() * 1e3
+        });
+        empty.sort_by(f64::total_cmp);
+        timer.latency_ms = empty[EMPTY / 2];
+        timer
     }
 
     /// A timer that stamps nothing.
@@ -58,7 +79,27 @@ impl Timer {
         Self {
             stamps: None,
             names: Vec::new(),
+            idle: None,
+            latency_ms: 0.0,
         }
+    }
+
+    /// Commands that end with stamp 0 and do nothing else.
+    fn lone_stamp(&self, gpu: &Gpu) -> wgpu::CommandBuffer {
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        if let (Some(stamps), Some(idle)) = (&self.stamps, &self.idle) {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: Some("lone stamp"),
+                timestamp_writes: Some(wgpu::ComputePassTimestampWrites {
+                    query_set: stamps,
+                    beginning_of_pass_write_index: None,
+                    end_of_pass_write_index: Some(0),
+                }),
+            });
+            pass.set_pipeline(idle);
+            pass.dispatch_workgroups(1, 1, 1);
+        }
+        encoder.finish()
     }
 
     /// The query set and the index of the next pass's END stamp.
@@ -74,24 +115,14 @@ impl Timer {
     /// Times a frame whose passes `record` records.
     pub(crate) fn time(&mut self, gpu: &Gpu, record: impl FnOnce(&mut Recorder<'_>)) -> FrameTime {
         self.names.clear();
-        let mut lone = gpu.device.create_command_encoder(&Default::default());
-        if let Some(stamps) = &self.stamps {
-            drop(lone.begin_compute_pass(&wgpu::ComputePassDescriptor {
-                label: Some("lone stamp"),
-                timestamp_writes: Some(wgpu::ComputePassTimestampWrites {
-                    query_set: stamps,
-                    beginning_of_pass_write_index: None,
-                    end_of_pass_write_index: Some(0),
-                }),
-            }));
-        }
-        gpu.queue.submit([lone.finish()]);
-        gpu.wait();
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         record(&mut Recorder::new(&mut encoder, self));
-        let commands = encoder.finish();
+        let commands = [self.lone_stamp(gpu), encoder.finish()];
+        // Uploads that wait for a submission have one of their own.
+        gpu.queue.submit([]);
+        gpu.wait();
         let begin = std::time::Instant::now();
-        gpu.queue.submit([commands]);
+        gpu.queue.submit(commands);
         gpu.wait();
         let wall_ms = begin.elapsed().as_secs_f64() * 1e3;
         let without = |reason: String| FrameTime {
@@ -138,7 +169,7 @@ impl Timer {
             }
         }
         let sum: f64 = passes.iter().map(|(_, ms)| ms).sum();
-        if (sum - wall_ms).abs() > PASSES_MISS_WALL * wall_ms {
+        if (sum - wall_ms).abs() > PASSES_MISS_WALL * wall_ms + self.latency_ms {
             return FrameTime {
                 gpu_ms: Some(sum),
                 ..without(format!(
@@ -165,8 +196,32 @@ pub struct SelfTest {
     pub message: String,
 }
 
+/// A pipeline that does nothing.
+fn idle(gpu: &Gpu) -> wgpu::ComputePipeline {
+    let source = "@compute @workgroup_size(1) fn idle() {}";
+    let module = gpu
+        .device
+        .create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("idle"),
+            source: wgpu::ShaderSource::Wgsl(source.into()),
+        });
+    gpu.device
+        .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some("idle"),
+            layout: None,
+            module: &module,
+            entry_point: Some("idle"),
+            compilation_options: Default::default(),
+            cache: None,
+        })
+}
+
 /// Share of the frame that the known load must account for.
 const LOAD_SHARE: f64 = 0.5;
+/// The load grows until a frame takes as long, in milliseconds, so that nothing else counts.
+const LOAD_MS: f64 = 50.0;
+/// It does not grow beyond so many dispatches.
+const MOST_LOAD: u32 = 1 << 14;
 
 /// A heavy compute pass after a render pass that it reads from, as every frame has it: its time
 /// must be seen as its own.
@@ -236,14 +291,24 @@ pub(crate) fn self_test(gpu: &Gpu) -> SelfTest {
         ],
     });
     let mut timer = Timer::new(gpu);
-    let time = timer.time(gpu, |frame| {
-        frame.render("render", &[&view], Begin::Clear, None, |_| {});
-        frame.compute("load", |pass| {
-            pass.set_pipeline(&pipeline);
-            pass.set_bind_group(0, &group, &[]);
-            pass.dispatch_workgroups(64, 1, 1);
-        });
-    });
+    let mut timed = |dispatches: u32| {
+        timer.time(gpu, |frame| {
+            frame.render("render", &[&view], Begin::Clear, None, |_| {});
+            frame.compute("load", |pass| {
+                pass.set_pipeline(&pipeline);
+                pass.set_bind_group(0, &group, &[]);
+                for _ in 0..dispatches {
+                    pass.dispatch_workgroups(64, 1, 1);
+                }
+            });
+        })
+    };
+    let mut dispatches = 1;
+    let mut time = timed(dispatches);
+    while time.wall_ms < LOAD_MS && dispatches < MOST_LOAD {
+        dispatches *= 2;
+        time = timed(dispatches);
+    }
     match &time.passes {
         None => SelfTest {
             passed: false,

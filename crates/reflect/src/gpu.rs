@@ -78,7 +78,9 @@ fn describe(adapter: &wgpu::Adapter) -> AdapterInfo {
         timestamps: adapter.features().contains(wgpu::Features::TIMESTAMP_QUERY),
         ray_queries: adapter.features().contains(RAY_QUERY),
         max_image: limits.max_texture_dimension_2d,
-        max_storage_binding: limits.max_storage_buffer_binding_size,
+        // Devices are opened with the default limits.
+        max_storage_binding: (limits.max_storage_buffer_binding_size)
+            .min(wgpu::Limits::default().max_storage_buffer_binding_size),
     }
 }
 
@@ -137,7 +139,17 @@ impl Gpu {
             let wanted = name.to_lowercase();
             candidates.retain(|(info, _)| info.name.to_lowercase().contains(&wanted));
         }
-        candidates.sort_by_key(|(info, _)| info.software == (prefer == Prefer::Hardware));
+        let rank = |adapter: &wgpu::Adapter| match adapter.get_info().device_type {
+            wgpu::DeviceType::DiscreteGpu => 0,
+            wgpu::DeviceType::IntegratedGpu => 1,
+            wgpu::DeviceType::VirtualGpu => 2,
+            wgpu::DeviceType::Other => 3,
+            wgpu::DeviceType::Cpu => 4,
+        };
+        candidates.sort_by_key(|(info, adapter)| {
+            let other = info.software == (prefer == Prefer::Hardware);
+            (other, rank(adapter))
+        });
         let Some((mut info, adapter)) = candidates.into_iter().next() else {
             return Err(GpuError::NoAdapter {
                 wanted: name

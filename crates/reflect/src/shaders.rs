@@ -64,7 +64,8 @@ pub fn link(program: &str, features: &[&str]) -> Result<String, String> {
 pub(crate) mod tests {
     use std::collections::BTreeSet;
 
-    use naga::valid::{Capabilities, ValidationFlags, Validator};
+    use naga::back::{hlsl, msl};
+    use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 
     use super::*;
 
@@ -130,14 +131,38 @@ pub(crate) mod tests {
         for (program, features) in &programs {
             for on in sets(features) {
                 let module = parsed(program, &on);
-                Validator::new(
-                    ValidationFlags::all(),
-                    Capabilities::RAY_QUERY | Capabilities::default(),
-                )
-                .validate(&module)
-                .unwrap_or_else(|error| panic!("{program} {on:?}: {error:?}"));
+                let capabilities = Capabilities::RAY_QUERY | Capabilities::default();
+                let info = Validator::new(ValidationFlags::all(), capabilities)
+                    .validate(&module)
+                    .unwrap_or_else(|error| panic!("{program} {on:?}: {error:?}"));
+                translate(&module, &info)
+                    .unwrap_or_else(|error| panic!("{program} {on:?}: {error}"));
             }
         }
+    }
+
+    /// Writes a program in the languages of Metal and of DirectX, as a device there would.
+    fn translate(module: &naga::Module, info: &ModuleInfo) -> Result<(), String> {
+        let options = msl::Options {
+            lang_version: (2, 4),
+            fake_missing_bindings: true,
+            ..Default::default()
+        };
+        msl::write_string(module, info, &options, &msl::PipelineOptions::default())
+            .map_err(|error| format!("Metal: {error}"))?;
+        let options = hlsl::Options {
+            shader_model: hlsl::ShaderModel::V6_5,
+            fake_missing_bindings: true,
+            ..Default::default()
+        };
+        hlsl::Writer::new(
+            &mut String::new(),
+            &options,
+            &hlsl::PipelineOptions::default(),
+        )
+        .write(module, info, None)
+        .map_err(|error| format!("DirectX: {error}"))?;
+        Ok(())
     }
 
     #[test]

@@ -6,11 +6,15 @@ use catoptric_scene::Scene;
 use glam::Vec3;
 use obvhs::BvhBuildParams;
 use obvhs::cwbvh::builder::build_cwbvh_from_tris;
+use obvhs::cwbvh::node::CwBvhNode;
 use obvhs::triangle::Triangle;
 
 use crate::ReflectError;
 use crate::gpu::Gpu;
 use crate::resources::{storage_bytes, storage_zeros};
+
+/// Levels that the shader's stack holds (`ray_trace.wesl`): one entry each at most.
+const STACK: usize = 48;
 
 /// The scene's triangles as the shader reads them.
 pub(super) struct Wide {
@@ -41,6 +45,13 @@ impl Wide {
         }
         let params = BvhBuildParams::medium_build();
         let hierarchy = build_cwbvh_from_tris(&triangles, params, &mut Duration::default());
+        let depth = depth(&hierarchy.nodes);
+        if depth > STACK {
+            return Err(ReflectError::Deep {
+                depth,
+                limit: STACK,
+            });
+        }
         let order = hierarchy.primitive_indices.iter();
         let ordered: Vec<[f32; 12]> = order
             .map(|&index| {
@@ -58,4 +69,17 @@ impl Wide {
             triangles: storage_bytes(gpu, ordered),
         })
     }
+}
+
+/// Levels of nodes.
+fn depth(nodes: &[CwBvhNode]) -> usize {
+    let mut deepest = 0;
+    let mut waiting = vec![(0, 1)];
+    while let Some((index, depth)) = waiting.pop() {
+        deepest = deepest.max(depth);
+        let node: &CwBvhNode = &nodes[index];
+        let inner = (0..8).filter(|child| !node.is_child_empty(*child) && !node.is_leaf(*child));
+        waiting.extend(inner.map(|child| (node.child_node_index(child) as usize, depth + 1)));
+    }
+    deepest
 }

@@ -23,6 +23,9 @@ pub(crate) struct Pyramid {
     read: Vec<wgpu::BindGroup>,
 }
 
+/// A texel is packed into as many bits a coordinate (`ray_hierarchy/search.wesl`).
+const WIDEST: u32 = 1 << 14;
+
 /// Side of the base textures: the power of two next to the image's longer side. At least 2, so
 /// that there is a level above the base.
 fn base_side(size: [u32; 2]) -> u32 {
@@ -34,10 +37,8 @@ impl Pyramid {
     /// An image so large that its base textures are beyond the device.
     pub(crate) fn new(gpu: &Gpu, stage: &Stage) -> Result<Self, ReflectError> {
         let size = stage.world.size;
-        let (side, limit) = (
-            base_side(size),
-            gpu.device.limits().max_texture_dimension_2d,
-        );
+        let limit = gpu.device.limits().max_texture_dimension_2d;
+        let (side, limit) = (base_side(size), limit.min(WIDEST));
         if side > limit {
             let limit = 1 << limit.ilog2();
             return Err(ReflectError::Size { size, limit });

@@ -1,5 +1,7 @@
 //! What can be wrong with a scene, as one clear message.
 
+use std::fmt::Display;
+
 /// Why a scene could not be loaded. `Display` is one line that names file, line and key.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SceneError {
@@ -43,6 +45,16 @@ pub enum SceneError {
         /// ` (did you mean …?)`, or empty.
         suggestion: String,
     },
+}
+
+impl SceneError {
+    /// Says of an error in a model which scene file asks for the model.
+    pub(crate) fn used_by(mut self, user: impl Display) -> Self {
+        if let Self::AtLine { message, .. } | Self::File { message, .. } = &mut self {
+            *message = format!("{message} ({user})");
+        }
+        self
+    }
 }
 
 /// ` (did you mean `x`?)` with the most similar of `known`, or nothing if none is close.

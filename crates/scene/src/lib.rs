@@ -42,6 +42,7 @@ mod saddle;
 mod shapes;
 mod surface;
 mod tessellate;
+mod text;
 mod torus;
 
 pub use camera::{Camera, Fov, View};

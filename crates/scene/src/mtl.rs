@@ -1,48 +1,69 @@
 //! MTL files: diffuse colours and their textures.
 
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 use crate::SceneError;
 use crate::mesh::{Material, Paint, Texture};
+use crate::text::{self, at_line};
 
 /// Colour of a surface that nothing gives a colour.
 pub(crate) const DEFAULT_COLOR: Vec3 = Vec3::splat(0.8);
 
+/// A material, and how its texture lies on a mesh.
+pub(crate) struct Painted {
+    pub material: Material,
+    /// Texture coordinates are multiplied by this (`map_Kd -s`), then
+    pub uv_scale: Vec2,
+    /// this is added (`map_Kd -o`).
+    pub uv_offset: Vec2,
+}
+
+impl Painted {
+    /// In the default colour.
+    pub(crate) fn plain(name: &str) -> Self {
+        Self {
+            material: Material {
+                name: name.to_owned(),
+                paint: Paint::Color(DEFAULT_COLOR),
+            },
+            uv_scale: Vec2::ONE,
+            uv_offset: Vec2::ZERO,
+        }
+    }
+}
+
 /// Reads all materials of an MTL file with their textures, which lie relative to it.
-pub(crate) fn read(path: &Path) -> Result<Vec<Material>, SceneError> {
-    let text = read_text(path)?;
+pub(crate) fn read(path: &Path) -> Result<Vec<Painted>, SceneError> {
+    let text = text::read(path, "MTL")?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut textures = HashMap::new();
-    let mut materials: Vec<Material> = Vec::new();
-    for (line, number) in text.lines().zip(1..) {
+    let mut materials: Vec<Painted> = Vec::new();
+    for (number, line) in text::lines(&text) {
         let error = |message: String| at_line(path, number, message);
-        let mut words = line.split_whitespace();
-        let (key, rest) = (words.next().unwrap_or(""), words.collect::<Vec<_>>());
+        let (key, rest) = text::split_key(&line);
         if key == "newmtl" {
-            let paint = Paint::Color(DEFAULT_COLOR);
-            materials.push(Material {
-                name: rest.join(" "),
-                paint,
-            });
+            materials.push(Painted::plain(rest));
         } else if key == "Kd" || key == "map_Kd" {
-            let Some(material) = materials.last_mut() else {
+            let Some(painted) = materials.last_mut() else {
                 return Err(error(format!("`{key}` before the first `newmtl`")));
             };
+            let paint = &mut painted.material.paint;
             if key == "Kd" {
-                let kd = color(&rest)
+                let kd = color(text::without_comment(rest))
                     .ok_or_else(|| error("`Kd` must be three finite numbers ≥ 0".to_owned()))?;
-                match &mut material.paint {
+                match paint {
                     Paint::Texture { tint, .. } => *tint = kd,
                     paint => *paint = Paint::Color(kd),
                 }
             } else {
-                let name = texture_name(&rest)
-                    .ok_or_else(|| error("`map_Kd` names no file".to_owned()))?;
-                let file = folder.join(name);
+                let map =
+                    Map::parse(rest).map_err(|message| error(format!("`map_Kd` {message}")))?;
+                let file =
+                    text::beside(folder, &map.name).unwrap_or_else(|| folder.join(&map.name));
                 let image = match textures.get(&file) {
                     Some(image) => Arc::clone(image),
                     None => {
@@ -53,34 +74,78 @@ pub(crate) fn read(path: &Path) -> Result<Vec<Material>, SceneError> {
                         image
                     }
                 };
-                let tint = match material.paint {
-                    Paint::Color(kd) if kd != DEFAULT_COLOR => kd,
+                let tint = match paint {
+                    Paint::Color(kd) if *kd != DEFAULT_COLOR => *kd,
                     _ => Vec3::ONE,
                 };
-                material.paint = Paint::Texture { tint, image };
+                *paint = Paint::Texture { tint, image };
+                (painted.uv_scale, painted.uv_offset) = (map.scale, map.offset);
             }
         }
     }
     Ok(materials)
 }
 
-fn color(words: &[&str]) -> Option<Vec3> {
-    let [r, g, b] = words.get(..3)?.try_into().ok()?;
-    let color = Vec3::new(number(r)?, number(g)?, number(b)?);
+fn color(text: &str) -> Option<Vec3> {
+    let mut words = text.split_whitespace().map(|word| word.parse().ok());
+    let mut channel = || words.next().flatten();
+    let color = Vec3::new(channel()?, channel()?, channel()?);
     (color.is_finite() && color.min_element() >= 0.0).then_some(color)
 }
 
-fn number(word: &str) -> Option<f32> {
-    word.parse().ok()
+/// What a `map_Kd` line says: options, then all the rest is the file's name.
+#[derive(Debug, PartialEq)]
+struct Map {
+    name: String,
+    scale: Vec2,
+    offset: Vec2,
 }
 
-/// The file name of a `map_Kd` line: all of it, or the last word where options come first.
-fn texture_name(words: &[&str]) -> Option<PathBuf> {
-    let name = match words.first()? {
-        option if option.starts_with('-') => (*words.last()?).to_owned(),
-        _ => words.join(" "),
-    };
-    Some(PathBuf::from(name.replace('\\', "/")))
+impl Map {
+    /// Understands `-s u [v [w]]` and `-o u [v [w]]`; `w` is for pictures with depth.
+    fn parse(text: &str) -> Result<Self, String> {
+        let (mut scale, mut offset) = (Vec2::ONE, Vec2::ZERO);
+        let mut rest = text;
+        while rest.starts_with('-') {
+            let (option, after) = text::split_key(rest);
+            let place = match option {
+                "-s" => &mut scale,
+                "-o" => &mut offset,
+                _ => {
+                    return Err(format!(
+                        "has the option `{option}`: only -s and -o are understood"
+                    ));
+                }
+            };
+            let mut numbers = 0;
+            rest = after;
+            // A number at the very end is the file's name.
+            while let (word, after) = text::split_key(rest)
+                && let Ok(value) = word.parse::<f32>()
+                && numbers < 3
+                && !after.is_empty()
+            {
+                if !value.is_finite() {
+                    return Err(format!("{option} must be finite, not {word}"));
+                }
+                if numbers < 2 {
+                    place[numbers] = value;
+                }
+                (numbers, rest) = (numbers + 1, after);
+            }
+            if numbers == 0 {
+                return Err(format!("{option} needs a number"));
+            }
+        }
+        if text::without_comment(rest).is_empty() {
+            return Err("names no file".to_owned());
+        }
+        Ok(Self {
+            name: rest.to_owned(),
+            scale,
+            offset,
+        })
+    }
 }
 
 /// Decodes a PNG or JPEG picture from sRGB to linear RGB.
@@ -110,24 +175,6 @@ fn srgb_to_linear(byte: u8) -> f32 {
     linear as f32
 }
 
-/// A file's text; bytes that are no UTF-8 (in comments of old files) are replaced.
-pub(crate) fn read_text(path: &Path) -> Result<String, SceneError> {
-    let bytes = std::fs::read(path).map_err(|error| SceneError::File {
-        file: path.display().to_string(),
-        message: format!("cannot be read: {error}"),
-    })?;
-    Ok(String::from_utf8_lossy(&bytes).into_owned())
-}
-
-/// An error at a line of an OBJ or MTL file.
-pub(crate) fn at_line(path: &Path, line: usize, message: impl Into<String>) -> SceneError {
-    SceneError::AtLine {
-        file: path.display().to_string(),
-        line,
-        message: message.into(),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -140,12 +187,28 @@ mod tests {
     }
 
     #[test]
-    fn texture_names_with_options_spaces_and_backslashes() {
-        let name = |line: &str| texture_name(&line.split_whitespace().collect::<Vec<_>>());
-        assert_eq!(name("-bm 1 a.png"), Some("a.png".into()));
-        assert_eq!(name("old wood.png"), Some("old wood.png".into()));
-        assert_eq!(name("maps\\wood.png"), Some("maps/wood.png".into()));
-        assert_eq!(name(""), None);
+    fn maps_have_a_name_and_may_be_scaled_and_moved() {
+        let map = |text: &str| Map::parse(text).map(|map| (map.name, map.scale, map.offset));
+        let plain = |name: &str| Ok((name.to_owned(), Vec2::ONE, Vec2::ZERO));
+        assert_eq!(map("old wood.png"), plain("old wood.png"));
+        assert_eq!(map("maps\\wood.png"), plain("maps\\wood.png"));
+        let (scale, offset) = (Vec2::new(4.0, 2.0), Vec2::new(0.5, 0.0));
+        let moved = Ok(("a b.png".to_owned(), scale, offset));
+        assert_eq!(map("-s 4 2 1 -o 0.5 a b.png"), moved);
+        assert_eq!(
+            map("-s 4 7"),
+            Ok(("7".to_owned(), Vec2::new(4.0, 1.0), Vec2::ZERO))
+        );
+        for (text, wanted) in [
+            ("", "names no file"),
+            ("# none", "names no file"),
+            ("-bm 1 a.png", "option `-bm`"),
+            ("-s a.png", "-s needs a number"),
+            ("-o inf 0 a.png", "-o must be finite"),
+        ] {
+            let message = map(text).unwrap_err();
+            assert!(message.contains(wanted), "{message}, not {wanted}");
+        }
     }
 
     #[test]
@@ -158,14 +221,16 @@ mod tests {
         std::fs::write(&path, "newmtl a b\nKd 0.1 0.2 0.3\nnewmtl t\nmap_Kd t.png\nnewmtl u\nmap_Kd t.png\nKd .5 .5 .5\n")
             .unwrap();
         let materials = read(&path).unwrap();
-        assert_eq!(materials[0].name, "a b");
-        assert!(matches!(materials[0].paint, Paint::Color(c) if c == Vec3::new(0.1, 0.2, 0.3)));
-        let Paint::Texture { tint, image } = &materials[1].paint else {
+        assert_eq!(materials[0].material.name, "a b");
+        assert!(
+            matches!(materials[0].material.paint, Paint::Color(c) if c == Vec3::new(0.1, 0.2, 0.3))
+        );
+        let Paint::Texture { tint, image } = &materials[1].material.paint else {
             panic!("no texture")
         };
         assert_eq!((*tint, image.width, image.height), (Vec3::ONE, 2, 1));
         assert!((image.texels[0].y - 0.215_86).abs() < 1e-5);
-        let Paint::Texture { tint, image: same } = &materials[2].paint else {
+        let Paint::Texture { tint, image: same } = &materials[2].material.paint else {
             panic!("no texture")
         };
         assert_eq!(*tint, Vec3::splat(0.5));
@@ -183,7 +248,7 @@ mod tests {
             ("newmtl a\n\nmap_Kd none.png", "m.mtl:3: `map_Kd`"),
         ] {
             std::fs::write(&path, text).unwrap();
-            let message = read(&path).unwrap_err().to_string();
+            let message = read(&path).err().unwrap().to_string();
             assert!(message.contains(wanted), "{message}");
         }
     }

@@ -1,5 +1,7 @@
 //! OBJ files, read with `tobj` after a scan of our own that can name the line of what is wrong.
 
+mod scan;
+
 use std::cell::Cell;
 use std::collections::HashMap;
 use std::io::Cursor;
@@ -7,10 +9,12 @@ use std::path::{Path, PathBuf};
 
 use glam::{DVec3, Vec2, Vec3};
 
+use self::scan::{Scan, scan};
 use crate::SceneError;
 use crate::geometry::Geometry;
-use crate::mesh::{Material, Paint};
-use crate::mtl::{self, DEFAULT_COLOR, at_line};
+use crate::mesh::Paint;
+use crate::mtl::{self, Painted};
+use crate::text::{self, at_line};
 
 /// Which materials a mesh is read with.
 pub(crate) enum Materials {
@@ -24,67 +28,26 @@ pub(crate) enum Materials {
 
 /// Reads a mesh in its own space.
 pub(crate) fn read(path: &Path, materials: &Materials) -> Result<Geometry, SceneError> {
-    let mut text = mtl::read_text(path)?;
-    let scan = scan(path, &text)?;
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let mut palette = Vec::new();
-    match materials {
-        Materials::Ignored => {}
-        Materials::Other(file) => palette = mtl::read(file)?,
-        Materials::Own => {
-            for (line, library) in &scan.libraries {
-                let file = folder.join(library);
-                if !file.is_file() {
-                    return Err(at_line(
-                        path,
-                        *line,
-                        format!("no file `{}`", file.display()),
-                    ));
-                }
-                palette.extend(mtl::read(&file)?);
-            }
-        }
-    }
-    let mut by_name: HashMap<&str, usize> = HashMap::new();
-    for (index, material) in palette.iter().enumerate() {
-        by_name.entry(&material.name).or_insert(index);
-    }
-    let names_a_library = match materials {
-        Materials::Own => !scan.libraries.is_empty(),
-        Materials::Other(_) => true,
-        Materials::Ignored => false,
-    };
-    let unknown = scan
-        .materials
-        .iter()
-        .find(|(_, name)| !by_name.contains_key(name.as_str()));
-    if let Some((line, name)) = unknown.filter(|_| names_a_library) {
-        return Err(at_line(
-            path,
-            *line,
-            format!("no material `{name}` in its MTL file"),
-        ));
-    }
+    let scan = scan(path, &text::read(path, "OBJ")?)?;
+    let mut palette = palette(path, materials, &scan)?;
+    let by_name = used(path, materials, &scan, &palette)?;
+    textured_faces_have_coordinates(path, &scan, &palette, &by_name)?;
 
     // The loader learns all materials from the first library named, so one has to be.
-    text.insert_str(0, "mtllib all\n");
-    let palette_names = Cell::new(Some(by_name));
+    let source = format!("mtllib all\n{}", scan.clean);
+    let by_name = Cell::new(Some(by_name));
     let options = tobj::LoadOptions {
         triangulate: true,
         ignore_points: true,
         ignore_lines: true,
         ..tobj::LoadOptions::default()
     };
-    let loaded = tobj::load_obj_buf(&mut Cursor::new(text.as_bytes()), &options, |_| {
-        let names = palette_names.take().unwrap_or_default();
-        let materials =
-            vec![tobj::Material::default(); if names.is_empty() { 0 } else { palette.len() }];
+    let loaded = tobj::load_obj_buf(&mut Cursor::new(source.as_bytes()), &options, |_| {
+        let by_name = by_name.take().unwrap_or_default();
+        let count = if by_name.is_empty() { 0 } else { palette.len() };
         Ok((
-            materials,
-            names
-                .iter()
-                .map(|(name, index)| ((*name).to_owned(), *index))
-                .collect(),
+            vec![tobj::Material::default(); count],
+            by_name.into_iter().collect(),
         ))
     });
     let (models, _) = loaded.map_err(|error| SceneError::File {
@@ -92,10 +55,7 @@ pub(crate) fn read(path: &Path, materials: &Materials) -> Result<Geometry, Scene
         message: error.to_string(),
     })?;
     let fallback = palette.len() as u32;
-    palette.push(Material {
-        name: "default".to_owned(),
-        paint: Paint::Color(DEFAULT_COLOR),
-    });
+    palette.push(Painted::plain("default"));
     let geometry = assemble(&models, &scan, palette, fallback);
     if geometry.triangles.is_empty() {
         return Err(SceneError::File {
@@ -106,18 +66,99 @@ pub(crate) fn read(path: &Path, materials: &Materials) -> Result<Geometry, Scene
     Ok(geometry)
 }
 
+/// All materials of the MTL files.
+fn palette(path: &Path, materials: &Materials, scan: &Scan) -> Result<Vec<Painted>, SceneError> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let mut palette = Vec::new();
+    match materials {
+        Materials::Ignored => {}
+        Materials::Other(file) => palette = mtl::read(file)?,
+        Materials::Own => {
+            for (line, names) in &scan.libraries {
+                let files = libraries(folder, names)
+                    .map_err(|message| at_line(path, *line, format!("`mtllib`: {message}")))?;
+                for file in files {
+                    palette.extend(mtl::read(&file)?);
+                }
+            }
+        }
+    }
+    Ok(palette)
+}
+
+/// The files that a `mtllib` line names: all of it one, or else each of its words.
+fn libraries(folder: &Path, names: &str) -> Result<Vec<PathBuf>, String> {
+    if let Some(file) = text::beside(folder, names) {
+        return Ok(vec![file]);
+    }
+    let words: Vec<_> = text::without_comment(names).split_whitespace().collect();
+    if words.is_empty() {
+        return Err("names no file".to_owned());
+    }
+    let file = |word: &&str| {
+        text::beside(folder, word)
+            .ok_or_else(|| format!("no file `{}`", folder.join(word).display()))
+    };
+    words.iter().map(file).collect()
+}
+
+/// Where in the palette each material is that the OBJ uses.
+fn used(
+    path: &Path,
+    materials: &Materials,
+    scan: &Scan,
+    palette: &[Painted],
+) -> Result<HashMap<String, usize>, SceneError> {
+    let names_a_library = match materials {
+        Materials::Own => !scan.libraries.is_empty(),
+        Materials::Other(_) => true,
+        Materials::Ignored => false,
+    };
+    let mut known: HashMap<&str, usize> = HashMap::new();
+    // Whole names take precedence over those before a comment.
+    for spelling in [0, 1] {
+        for (index, painted) in palette.iter().enumerate() {
+            let name = text::spellings(&painted.material.name).nth(spelling);
+            name.map(|name| known.entry(name).or_insert(index));
+        }
+    }
+    let mut used = HashMap::new();
+    for (line, name) in &scan.materials {
+        match text::spellings(name).find_map(|name| known.get(name)) {
+            Some(index) => _ = used.insert(name.clone(), *index),
+            None if names_a_library => {
+                let message = format!("no material `{name}` in its MTL file");
+                return Err(at_line(path, *line, message));
+            }
+            None => {}
+        }
+    }
+    Ok(used)
+}
+
+fn textured_faces_have_coordinates(
+    path: &Path,
+    scan: &Scan,
+    palette: &[Painted],
+    by_name: &HashMap<String, usize>,
+) -> Result<(), SceneError> {
+    for (line, material) in &scan.bare {
+        let painted = by_name.get(material).map(|index| &palette[*index].material);
+        if painted.is_some_and(|material| matches!(material.paint, Paint::Texture { .. })) {
+            let message = format!(
+                "the face has no texture coordinates, which the `map_Kd` of its material \
+                 `{material}` needs"
+            );
+            return Err(at_line(path, *line, message));
+        }
+    }
+    Ok(())
+}
+
 /// All models in one. Normals that not all corners have are left out; so are such texture
 /// coordinates, unless a material needs them.
-fn assemble(
-    models: &[tobj::Model],
-    scan: &Scan,
-    palette: Vec<Material>,
-    fallback: u32,
-) -> Geometry {
-    let mut geometry = Geometry {
-        materials: palette,
-        ..Geometry::default()
-    };
+fn assemble(models: &[tobj::Model], scan: &Scan, palette: Vec<Painted>, fallback: u32) -> Geometry {
+    let mut geometry = Geometry::default();
     let meshes = || {
         models
             .iter()
@@ -125,12 +166,13 @@ fn assemble(
             .filter(|mesh| !mesh.indices.is_empty())
     };
     let [_, uvs, normals] = scan.everywhere;
-    let textured = geometry
-        .materials
+    let textured = palette
         .iter()
-        .any(|m| matches!(m.paint, Paint::Texture { .. }));
+        .any(|painted| matches!(painted.material.paint, Paint::Texture { .. }));
     let colors = meshes().all(|mesh| !mesh.vertex_color.is_empty());
     for mesh in meshes() {
+        let material = mesh.material_id.map_or(fallback, |id| id as u32);
+        let painted = &palette[material as usize];
         let start = geometry.positions.len() as u32;
         geometry.positions.extend(
             mesh.positions
@@ -141,9 +183,7 @@ fn assemble(
             geometry
                 .triangles
                 .push([0, 1, 2].map(|corner| start + corners[corner]));
-            geometry
-                .material
-                .push(mesh.material_id.map_or(fallback, |id| id as u32));
+            geometry.material.push(material);
             let three = |values: &[f32], indices: &[u32], corner: usize| {
                 let at = 3 * index(indices, 3 * face + corner, corners[corner]);
                 Vec3::from_slice(&values[at..at + 3])
@@ -158,7 +198,8 @@ fn assemble(
                 // A part without coordinates beside one with them shows one texel.
                 let corner = |corner: usize| {
                     let at = 2 * index(&mesh.texcoord_indices, 3 * face + corner, corners[corner]);
-                    Vec2::from_slice(mesh.texcoords.get(at..at + 2).unwrap_or(&[0.0; 2]))
+                    let uv = mesh.texcoords.get(at..at + 2).unwrap_or(&[0.0; 2]);
+                    painted.uv_scale * Vec2::from_slice(uv) + painted.uv_offset
                 };
                 geometry.uvs.push([0, 1, 2].map(corner));
             }
@@ -169,124 +210,14 @@ fn assemble(
             }
         }
     }
+    geometry.materials = palette
+        .into_iter()
+        .map(|painted| painted.material)
+        .collect();
     geometry
 }
 
 /// Attributes have indices of their own, or share those of the positions.
 fn index(own: &[u32], at: usize, shared: u32) -> usize {
     own.get(at).copied().unwrap_or(shared) as usize
-}
-
-/// What a look at every line finds.
-struct Scan {
-    /// Whether every face corner has a position, a texture coordinate, a normal.
-    everywhere: [bool; 3],
-    /// Lines and values of `mtllib`.
-    libraries: Vec<(usize, String)>,
-    /// Lines and values of `usemtl`.
-    materials: Vec<(usize, String)>,
-}
-
-/// Finds what is wrong with numbers and indices, and what the file refers to.
-fn scan(path: &Path, text: &str) -> Result<Scan, SceneError> {
-    let mut scan = Scan {
-        everywhere: [true; 3],
-        libraries: Vec::new(),
-        materials: Vec::new(),
-    };
-    // Positions, texture coordinates and normals so far.
-    let mut counts = [0i64; 3];
-    let mut faces = 0;
-    let mut colored = None;
-    // Legal where the index exists at the end of the file.
-    let mut ahead = Vec::new();
-    for (line, number) in text.lines().zip(1..) {
-        let error = |message: String| at_line(path, number, message);
-        let mut words = line.split_whitespace();
-        let key = words.next().unwrap_or("");
-        match key {
-            "v" | "vt" | "vn" => {
-                let wanted = if key == "vt" { 2 } else { 3 };
-                let values = words.map(|word| word.parse().ok().filter(|v: &f32| v.is_finite()));
-                let values: Option<Vec<f32>> = values.collect();
-                let Some(values) = values else {
-                    return Err(error(format!(
-                        "`{key}` has a value that is no finite number"
-                    )));
-                };
-                if values.len() < wanted {
-                    return Err(error(format!("`{key}` needs {wanted} numbers")));
-                }
-                match key {
-                    "v" => {
-                        counts[0] += 1;
-                        let color = values.len() >= 6;
-                        if *colored.get_or_insert(color) != color {
-                            return Err(error(
-                                "either all vertices have colours or none".to_owned(),
-                            ));
-                        }
-                    }
-                    "vt" => counts[1] += 1,
-                    _ => counts[2] += 1,
-                }
-            }
-            "f" => {
-                let corners: Vec<&str> = words.collect();
-                if corners.len() < 3 {
-                    return Err(error("a face needs at least 3 corners".to_owned()));
-                }
-                faces += 1;
-                for corner in corners {
-                    let mut parts = corner.split('/');
-                    for (kind, count) in counts.into_iter().enumerate() {
-                        let part = parts.next().unwrap_or("");
-                        if part.is_empty() && kind > 0 {
-                            scan.everywhere[kind] = false;
-                            continue;
-                        }
-                        let Ok(index) = part.parse::<i64>() else {
-                            return Err(error(format!("`{corner}` is no face corner")));
-                        };
-                        if index == 0 || index < -count {
-                            return Err(out_of_range(path, number, index, kind, count));
-                        }
-                        if index > count {
-                            ahead.push((number, index, kind));
-                        }
-                    }
-                }
-            }
-            "mtllib" => scan
-                .libraries
-                .push((number, words.collect::<Vec<_>>().join(" "))),
-            "usemtl" => scan
-                .materials
-                .push((number, words.collect::<Vec<_>>().join(" "))),
-            _ => {}
-        }
-    }
-    let beyond = ahead
-        .into_iter()
-        .find(|(_, index, kind)| *index > counts[*kind]);
-    if let Some((line, index, kind)) = beyond {
-        return Err(out_of_range(path, line, index, kind, counts[kind]));
-    }
-    if faces == 0 {
-        let message = "the mesh is empty: no face".to_owned();
-        return Err(SceneError::File {
-            file: path.display().to_string(),
-            message,
-        });
-    }
-    Ok(scan)
-}
-
-fn out_of_range(path: &Path, line: usize, index: i64, kind: usize, count: i64) -> SceneError {
-    let what = ["vertex", "texture coordinate", "normal"][kind];
-    at_line(
-        path,
-        line,
-        format!("{what} index {index} is out of range: there are {count}"),
-    )
 }

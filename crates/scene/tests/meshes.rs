@@ -118,6 +118,147 @@ fn vertex_colours() {
     );
 }
 
+/// Everything of a mesh that an OBJ's spelling must not change.
+fn geometry(obj: &str) -> (Vec<Vec3>, Vec<[u32; 3]>, Vec<[glam::Vec2; 3]>) {
+    let mesh = with_obj(obj, MESH).unwrap().objects.remove(0).mesh;
+    (mesh.positions, mesh.triangles, mesh.uvs)
+}
+
+#[test]
+fn every_valid_spelling_of_an_obj_gives_the_same_mesh() {
+    let plain =
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nf 1/1 2/2 3/1\nf 1/1 3/2 4/2\n";
+    let expected = geometry(plain);
+    assert_eq!((expected.0.len(), expected.1.len()), (4, 2));
+    for (what, spelt) in [
+        ("byte order mark", format!("\u{feff}{plain}")),
+        ("CRLF", plain.replace('\n', "\r\n")),
+        ("CR", plain.replace('\n', "\r")),
+        ("comments", plain.replace('\n', " # and why\n")),
+        (
+            "continuation",
+            plain
+                .replace(" 3/1", " \\\n3/1")
+                .replace("v 1 1 0", "v 1 \\\n 1 0"),
+        ),
+        (
+            "one coordinate",
+            plain
+                .replace("vt 0 0", "vt 0")
+                .replace("vt 1 0", "vt 1 # u"),
+        ),
+        ("three coordinates", plain.replace("vt 1 0", "vt 1 0 0.5")),
+        (
+            "groups and lines",
+            plain.replace("f 1/1 3", "g rest\ns off\nl 1 2\nf 1/1 3"),
+        ),
+    ] {
+        assert_eq!(geometry(&spelt), expected, "{what}");
+    }
+}
+
+#[test]
+fn several_libraries_and_materials_with_comments() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    write(
+        "a.mtl",
+        "\u{feff}newmtl red # warm\r\nKd 1 0 0 # R\r\nnewmtl Wood #5\r\nKd 0 1 0\r\n",
+    );
+    write(
+        "b c.mtl",
+        "newmtl Wood #6\rKd 1 1 0\rnewmtl blue\rKd 0 0 1\r",
+    );
+    write("d.mtl", "newmtl grey\nKd 0.5 0.5 \\\n0.5\n");
+    let faces = ["red", "Wood #5", "Wood #6", "blue # cold", "grey"]
+        .map(|name| format!("usemtl {name}\nf 1 2 3\n"))
+        .concat();
+    write(
+        "a.obj",
+        &format!("mtllib a.mtl d.mtl # two\nmtllib b c.mtl\n{SQUARE}{faces}"),
+    );
+    let mesh = load(folder.path(), MESH).unwrap().objects.remove(0).mesh;
+    let colors: Vec<Vec3> = (mesh.material.iter())
+        .map(|index| match mesh.materials[*index as usize].paint {
+            Paint::Color(color) => color,
+            _ => panic!("no plain colour"),
+        })
+        .collect();
+    assert_eq!(
+        colors,
+        [
+            Vec3::X,
+            Vec3::Y,
+            Vec3::new(1.0, 1.0, 0.0),
+            Vec3::Z,
+            Vec3::splat(0.5)
+        ]
+    );
+}
+
+/// A triangle in the colour of a picture, with this `map_Kd` line and this face.
+fn textured(map: &str, face: &str) -> Result<Scene, SceneError> {
+    let folder = tempfile::tempdir().unwrap();
+    image::RgbImage::new(2, 2)
+        .save(folder.path().join("t.png"))
+        .unwrap();
+    std::fs::write(
+        folder.path().join("t.mtl"),
+        format!("newmtl t\nmap_Kd {map}\n"),
+    )
+    .unwrap();
+    let obj = format!("mtllib t.mtl\n{SQUARE}vt 0 0\nvt 1 0\nvt 1 1\nusemtl t\n{face}\n");
+    std::fs::write(folder.path().join("a.obj"), obj).unwrap();
+    load(folder.path(), MESH)
+}
+
+#[test]
+fn a_texture_is_scaled_and_moved_when_it_is_loaded() {
+    let uvs = |map: &str| {
+        textured(map, "f 1/1 2/2 3/3").unwrap().objects[0]
+            .mesh
+            .uvs
+            .clone()
+    };
+    let uv = glam::Vec2::new;
+    assert_eq!(uvs("t.png"), [[uv(0.0, 0.0), uv(1.0, 0.0), uv(1.0, 1.0)]]);
+    assert_eq!(
+        uvs("-s 4 2 1 t.png"),
+        [[uv(0.0, 0.0), uv(4.0, 0.0), uv(4.0, 2.0)]]
+    );
+    assert_eq!(
+        uvs("-s 4 2 -o 0.5 0.25 t.png # tiles"),
+        [[uv(0.5, 0.25), uv(4.5, 0.25), uv(4.5, 2.25)]]
+    );
+}
+
+#[test]
+fn what_a_texture_needs() {
+    for (map, face, wanted) in [
+        (
+            "t.png",
+            "f 1 2 3",
+            "a.obj:10: the face has no texture coordinates",
+        ),
+        (
+            "t.png",
+            "f 1/1 2/2 3/3\nf 1/1 3/3 4",
+            "a.obj:11: the face has no",
+        ),
+        (
+            "-clamp on t.png",
+            "f 1/1 2/2 3/3",
+            "t.mtl:2: `map_Kd` has the option `-clamp`",
+        ),
+        ("u.png", "f 1/1 2/2 3/3", "t.mtl:2: `map_Kd`: "),
+    ] {
+        let message = textured(map, face).unwrap_err().to_string();
+        assert!(message.contains(wanted), "{message}, not {wanted}");
+        assert!(message.contains("(the mesh of object 1, "), "{message}");
+        assert!(message.contains("scene.toml:7)"), "{message}");
+    }
+}
+
 #[test]
 fn what_is_wrong_with_an_obj_is_told_with_its_line() {
     for (obj, wanted) in [
@@ -150,6 +291,18 @@ fn what_is_wrong_with_an_obj_is_told_with_its_line() {
         ),
         ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 c\n", "a.obj:4: `c`"),
         ("v 0 0 0 1 1 1\nv 1 0 0\n", "a.obj:2: either all"),
+        ("v 0 0 0 1 1\n", "a.obj:1: `v` has 5 numbers"),
+        ("v 0 0 0 0\n", "a.obj:1: `v` has the weight 0"),
+        ("v 0 0 0\nvt # u\n", "a.obj:2: `vt` needs a number"),
+        ("v 0 0 0\nf 1 1 1/1/1/1\n", "a.obj:2: texture coordinate"),
+        ("v 0 0 0\nf 1 1 1///1\n", "a.obj:2: `1///1` is no face"),
+        ("v 0 0 0\nusemtl\n", "a.obj:2: `usemtl` names no"),
+        ("v 0 0 0\n\0\n", "a.obj: is binary"),
+        ("v 0 0 \\\nx\nv 0 0 0\n", "a.obj:1: `v` has a value"),
+        (
+            "mtllib a.mtl c.mtl\nv 0 0 0\nf 1 1 1\n",
+            "a.obj:1: `mtllib`: no file `",
+        ),
         ("v 0 0 0\n", "a.obj: the mesh is empty"),
         ("", "a.obj: the mesh is empty"),
         (
@@ -158,7 +311,7 @@ fn what_is_wrong_with_an_obj_is_told_with_its_line() {
         ),
         (
             "mtllib c.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
-            "a.obj:1: no file `",
+            "a.obj:1: `mtllib`: no file `",
         ),
         (
             "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl green\nf 1 2 3\n",

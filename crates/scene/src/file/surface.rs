@@ -238,7 +238,10 @@ impl Surface {
                         Materials::Other(other)
                     }
                 };
-                obj::read(&path, &materials)?
+                let (owner, file, line) = (table.owner(), table.file(), table.line("mesh"));
+                obj::read(&path, &materials).map_err(|error| {
+                    error.used_by(format_args!("the mesh of {owner}, {file}:{line}"))
+                })?
             }
         })
     }

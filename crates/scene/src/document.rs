@@ -3,6 +3,8 @@
 //! Reading a key declares it as known; [`Table::finish`] then rejects every other key of the
 //! table, with the nearest known one as a suggestion.
 
+mod message;
+
 use std::cell::RefCell;
 use std::fmt::Display;
 use std::ops::RangeInclusive;
@@ -11,6 +13,8 @@ use glam::{DVec3, Vec3};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+pub(crate) use self::message::short;
+use self::message::{found, in_a_line};
 use crate::SceneError;
 use crate::error::suggest;
 
@@ -50,7 +54,7 @@ impl Source {
         SceneError::AtLine {
             file: self.file.clone(),
             line: self.line(offset),
-            message: message.to_string(),
+            message: in_a_line(&message.to_string()),
         }
     }
 }
@@ -143,7 +147,7 @@ impl<'d> Table<'d> {
     }
 
     fn wrong_type(&self, key: &str, value: &DeValue<'_>, wanted: impl Display) -> SceneError {
-        self.error(key, format_args!("must be {wanted}, not {}", kind(value)))
+        self.error(key, format_args!("must be {wanted}, not {}", found(value)))
     }
 
     /// The value of a key that must be there.
@@ -199,7 +203,7 @@ impl<'d> Table<'d> {
     pub(crate) fn positive(&self, key: &'static str) -> Result<Option<f64>, SceneError> {
         match self.number(key)? {
             Some(value) if value < SMALLEST => {
-                Err(self.error(key, format_args!("must be positive, not {value}")))
+                Err(self.error(key, format_args!("must be positive, not {}", short(value))))
             }
             value => Ok(value),
         }
@@ -231,9 +235,10 @@ impl<'d> Table<'d> {
             .filter(|count| range.contains(count))
             .ok_or_else(|| {
                 let (low, high) = (range.start(), range.end());
+                let found = found(value);
                 self.error(
                     key,
-                    format_args!("must be from {low} to {high}, not {integer}"),
+                    format_args!("must be from {low} to {high}, not {found}"),
                 )
             })
     }
@@ -455,16 +460,5 @@ impl<'d> Table<'d> {
             .map_or(Ok(()), |key| {
                 Err(self.unknown(key.get_ref(), key.span().start, &asked))
             })
-    }
-}
-
-fn kind(value: &DeValue<'_>) -> &'static str {
-    match value {
-        DeValue::String(_) => "a string",
-        DeValue::Integer(_) | DeValue::Float(_) => "a number",
-        DeValue::Boolean(_) => "true or false",
-        DeValue::Datetime(_) => "a date",
-        DeValue::Array(_) => "an array",
-        DeValue::Table(_) => "a table",
     }
 }

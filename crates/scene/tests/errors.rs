@@ -259,6 +259,30 @@ fn messages_name_file_line_and_key() {
         ),
         ("\"ball\"", "\"\"", 15, &["`name`", "empty"]),
         (
+            "\"ball\"",
+            r#""two\nlines""#,
+            15,
+            &["`name`", "control characters", r"`two\nlines`"],
+        ),
+        (
+            "n = 4",
+            "n = 4.5",
+            11,
+            &["`n` must be a whole number, not 4.5"],
+        ),
+        (
+            "n = 4",
+            "n = 123456789012345678901234567890",
+            11,
+            &["`n` must be from 1 to 2048, not 1.2346e29"],
+        ),
+        (
+            "radius = 1.0",
+            "radius = 1e-300",
+            18,
+            &["`radius` must be positive, not 1.0000e-300"],
+        ),
+        (
             "radius = 1.0",
             "radius = 0",
             18,

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
-use crate::document::{SMALLEST, Table};
+use crate::document::{SMALLEST, Table, short};
 use crate::{Background, Camera, Fov, SceneError};
 
 /// Largest width or height of an image.
@@ -28,7 +28,7 @@ pub(super) fn camera(
     let target = table.required("target", target)?;
     let (key, degrees, fov) = table.required("fov_y", fov)?;
     if degrees <= 0.0 || degrees >= 180.0 {
-        let message = format_args!("must be between 0 and 180 degrees, not {degrees}");
+        let message = format_args!("must be between 0 and 180 degrees, not {}", short(degrees));
         return Err(table.error(key, message));
     }
     let forward = target - eye;

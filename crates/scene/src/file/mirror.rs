@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::surface::{PRIMITIVES, Surface, copies, primitive};
 use super::{Origin, name};
-use crate::document::{SMALLEST, Table};
+use crate::document::{SMALLEST, Table, short};
 use crate::error::suggest;
 use crate::geometry::rotation;
 use crate::mesh::{Material, Mesh, Paint};
@@ -163,7 +163,7 @@ fn bowl(table: &Table<'_>) -> Result<Shape, SceneError> {
     let axis = table.required("axis", axis)?;
     let degrees = table.required("half_angle_deg", degrees)?;
     if !(1e-3..180.0).contains(&degrees) {
-        let message = format_args!("must be between 0 and 180 degrees, not {degrees}");
+        let message = format_args!("must be between 0 and 180 degrees, not {}", short(degrees));
         return Err(table.error("half_angle_deg", message));
     }
     Ok(Shape::Bowl {

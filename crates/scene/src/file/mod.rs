@@ -97,6 +97,10 @@ fn unique(table: &Table<'_>, names: &mut HashSet<String>, name: &str) -> Result<
 fn name(table: &Table<'_>) -> Result<String, SceneError> {
     match table.string("name")? {
         Some("") => Err(table.error("name", "must not be empty")),
+        Some(name) if name.contains(char::is_control) => {
+            let message = format_args!("must have no control characters: `{name}`");
+            Err(table.error("name", message))
+        }
         Some(name) => Ok(name.to_owned()),
         None => Ok(table.owner().to_owned()),
     }

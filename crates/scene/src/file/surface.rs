@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use glam::{DMat3, DVec2, DVec3, Vec3};
 
 use super::Origin;
-use crate::document::{SMALLEST, Table};
+use crate::document::{SMALLEST, Table, short};
 use crate::geometry::{Geometry, Transform, rotation};
 use crate::obj::{self, Materials};
 use crate::{SceneError, shapes};
@@ -105,7 +105,8 @@ pub(super) fn primitive(table: &Table<'_>, shape: &str) -> Result<Option<Surface
             let (cells, segments) = (cells()?.unwrap_or(1), segments(32)?);
             let degrees = table.number("turn_deg")?.unwrap_or(360.0);
             if !(1e-3..=360.0).contains(&degrees) {
-                let message = format_args!("must be above 0 and at most 360, not {degrees}");
+                let message =
+                    format_args!("must be above 0 and at most 360, not {}", short(degrees));
                 return Err(table.error("turn_deg", message));
             }
             let rows = table.required("profile", rows)?;

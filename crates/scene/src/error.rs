@@ -42,7 +42,7 @@ pub enum SceneError {
     Unknown {
         /// As given by the user.
         name: String,
-        /// ` (did you mean …?)`, or empty.
+        /// ` (did you mean …?)`, or where the names are listed.
         suggestion: String,
     },
 }
@@ -57,12 +57,15 @@ impl SceneError {
     }
 }
 
+/// How alike two names must be (Jaro–Winkler) for one to be taken for the other.
+const ALIKE: f64 = 0.8;
+
 /// ` (did you mean `x`?)` with the most similar of `known`, or nothing if none is close.
 pub(crate) fn suggest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> String {
     known
         .into_iter()
         .map(|candidate| (strsim::jaro_winkler(word, candidate), candidate))
-        .filter(|(similarity, _)| *similarity >= 0.75)
+        .filter(|(similarity, _)| *similarity >= ALIKE)
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .map_or_else(String::new, |(_, candidate)| {
             format!(" (did you mean `{candidate}`?)")

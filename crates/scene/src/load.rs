@@ -33,7 +33,11 @@ pub fn open(name_or_path: &str, options: &LoadOptions) -> Result<Scene, SceneErr
     let path = Path::new(name_or_path);
     if path.extension().is_none_or(|extension| extension != "toml") {
         let names = builtin::names();
-        let suggestion = suggest(name_or_path, names.iter().map(String::as_str));
+        let mut suggestion = suggest(name_or_path, names.iter().map(String::as_str));
+        if suggestion.is_empty() {
+            suggestion =
+                "; `catoptric list scenes` names the scenes, and files end in .toml".to_owned();
+        }
         return Err(SceneError::Unknown {
             name: name_or_path.to_owned(),
             suggestion,

@@ -51,7 +51,7 @@ fn messages_name_file_line_and_key() {
             "why = \"A test.\"",
             "why = 3",
             1,
-            &["`why`", "a string, not a number"],
+            &["`why`", "a string, not 3"],
         ),
         ("why", "whi", 1, &["unknown key `whi`", "`why`"]),
         (

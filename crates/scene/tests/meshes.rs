@@ -294,7 +294,7 @@ fn what_is_wrong_with_an_obj_is_told_with_its_line() {
         ("v 0 0 0 1 1\n", "a.obj:1: `v` has 5 numbers"),
         ("v 0 0 0 0\n", "a.obj:1: `v` has the weight 0"),
         ("v 0 0 0\nvt # u\n", "a.obj:2: `vt` needs a number"),
-        ("v 0 0 0\nf 1 1 1/1/1/1\n", "a.obj:2: texture coordinate"),
+        ("v 0 0 0\nf 1 1 1/1/1/1\n", "a.obj:2: `1/1/1/1` is no face"),
         ("v 0 0 0\nf 1 1 1///1\n", "a.obj:2: `1///1` is no face"),
         ("v 0 0 0\nusemtl\n", "a.obj:2: `usemtl` names no"),
         ("v 0 0 0\n\0\n", "a.obj: is binary"),

@@ -6,10 +6,10 @@ use thiserror::Error;
 
 use crate::registry::{Family, OptionInfo, TECHNIQUES, TechniqueInfo, Values};
 
-/// A parsed technique name with every option settled.
-#[derive(Clone, Debug)]
+/// A parsed technique name with every option settled. `Display` gives the canonical name: options
+/// in the registry's order, those left out that have their default.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Spec {
-    written: String,
     pub(crate) options: Options,
     pub(crate) refinement: Option<Options>,
 }
@@ -29,11 +29,11 @@ pub enum SpecError {
     Technique {
         /// As written.
         name: String,
-        /// The nearest name, as a question.
+        /// The nearest name, as a question, or all there are.
         hint: String,
     },
     /// A technique of the papers that is not built yet.
-    #[error("technique `{name}` is not available: {reason}")]
+    #[error("`{name}` is not available: {reason}")]
     Unavailable {
         /// Its name.
         name: &'static str,
@@ -53,11 +53,17 @@ pub enum SpecError {
         technique: &'static str,
         /// As written.
         option: String,
-        /// The nearest option, as a question.
+        /// The nearest option, as a question, or all there are.
         hint: String,
     },
+    /// An option with two values.
+    #[error("`{option}` is given twice")]
+    Repeated {
+        /// Option.
+        option: &'static str,
+    },
     /// A value the option does not take.
-    #[error("`{option}={value}`: {option} is one of {allowed}")]
+    #[error("`{option}={value}`: {option} is {allowed}")]
     Value {
         /// Option.
         option: &'static str,
@@ -71,24 +77,43 @@ pub enum SpecError {
     Syntax(String),
 }
 
-fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> String {
-    known
+/// The known name that is likely meant, as a question: one that few letters away, or the only one
+/// that begins so. Else all names.
+fn hint(word: &str, known: impl Iterator<Item = &'static str> + Clone) -> String {
+    let letters = word.trim_start_matches('+').chars().count();
+    let near = known
+        .clone()
         .map(|name| (strsim::damerau_levenshtein(word, name), name))
         .min()
-        .filter(|(distance, name)| *distance <= name.len().max(3) / 2)
-        .map(|(_, name)| format!(" (did you mean `{name}`?)"))
-        .unwrap_or_default()
+        .filter(|(distance, _)| *distance <= 2 && 3 * distance <= letters);
+    let mut begun = known.clone().filter(|name| name.starts_with(word));
+    let begun = match (begun.next(), begun.next()) {
+        (Some(name), None) if letters >= 3 => Some(name),
+        _ => None,
+    };
+    match near.map(|(_, name)| name).or(begun) {
+        Some(name) => format!(" (did you mean `{name}`?)"),
+        None => format!("; known: {}", known.collect::<Vec<_>>().join(", ")),
+    }
 }
 
 fn technique(name: &str, refines: bool) -> Result<&'static TechniqueInfo, SpecError> {
-    let known = || {
+    let of = |refines: bool| {
         let is_refinement = |info: &&TechniqueInfo| info.family == Family::Refinement;
         (TECHNIQUES.iter()).filter(move |info| is_refinement(info) == refines)
     };
-    let found = known().find(|info| info.name == name);
-    let found = found.ok_or_else(|| SpecError::Technique {
-        name: name.to_owned(),
-        hint: nearest(name, known().map(|info| info.name)),
+    let found = of(refines).find(|info| info.name == name);
+    let found = found.ok_or_else(|| {
+        let refinement = format!("+{}", name.trim_start_matches('+'));
+        let as_refinement = of(true).any(|info| info.name == refinement);
+        SpecError::Technique {
+            name: name.to_owned(),
+            hint: if !refines && as_refinement {
+                format!("; `{refinement}` goes with a search, such as `linear{refinement}`")
+            } else {
+                hint(name, of(refines).map(|info| info.name))
+            },
+        }
     })?;
     match found.reason() {
         Some(reason) => Err(SpecError::Unavailable {
@@ -102,13 +127,15 @@ fn technique(name: &str, refines: bool) -> Result<&'static TechniqueInfo, SpecEr
 /// Parses a technique name.
 ///
 /// # Errors
-/// Unknown names, options and values, with the nearest known one.
+/// Unknown names, options and values, with the nearest known one; options given twice.
 pub fn parse(text: &str) -> Result<Spec, SpecError> {
     let written: String = text.chars().filter(|c| !c.is_whitespace()).collect();
     let (first, refinement) = match written.split_once('+') {
         Some((first, refinement)) => (first, Some(format!("+{refinement}"))),
         None => (written.as_str(), None),
     };
+    // A refinement alone is told where it goes.
+    let first = if first.is_empty() { &written } else { first };
     let options = Options::parse(first, false)?;
     let refinement = refinement.map(|text| Options::parse(&text, true));
     if refinement.is_some() && options.info.family != Family::Search {
@@ -119,7 +146,6 @@ pub fn parse(text: &str) -> Result<Spec, SpecError> {
     Ok(Spec {
         options,
         refinement: refinement.transpose()?,
-        written,
     })
 }
 
@@ -137,6 +163,7 @@ impl Options {
         let info = technique(name, refines)?;
         let default = |option: &OptionInfo| (option.name, option.default());
         let mut values: Vec<_> = info.options().map(default).collect();
+        let mut seen = Vec::new();
         let given = arguments.split(',').filter(|given| !given.is_empty());
         for argument in given {
             let (key, value) = argument
@@ -149,12 +176,21 @@ impl Options {
                 .ok_or_else(|| SpecError::Option {
                     technique: info.name,
                     option: key.to_owned(),
-                    hint: nearest(key, info.options().map(|option| option.name)),
+                    hint: hint(key, info.options().map(|option| option.name)),
                 })?;
+            if seen.contains(&option.name) {
+                return Err(SpecError::Repeated {
+                    option: option.name,
+                });
+            }
+            seen.push(option.name);
             place.1 = settle(option, value).ok_or_else(|| SpecError::Value {
                 option: option.name,
                 value: value.to_owned(),
-                allowed: option.allowed(),
+                allowed: match option.values {
+                    Values::Words(_) => format!("one of {}", option.allowed()),
+                    Values::Whole { .. } | Values::Number { .. } => option.allowed(),
+                },
             })?;
         }
         Ok(Self { info, values })
@@ -219,7 +255,7 @@ fn settle(option: &OptionInfo, value: &str) -> Option<String> {
             let number: f64 = value.parse().ok()?;
             (range[0]..=range[1])
                 .contains(&number)
-                .then(|| number.to_string())
+                .then(|| (number + 0.0).to_string())
         }
     }
 }
@@ -241,23 +277,33 @@ impl Spec {
     }
 }
 
-impl PartialEq for Spec {
-    /// Whether both mean the same, however they are written.
-    fn eq(&self, other: &Self) -> bool {
-        self.options == other.options && self.refinement == other.refinement
-    }
-}
-
 impl PartialEq for Options {
     fn eq(&self, other: &Self) -> bool {
         self.info.name == other.info.name && self.values == other.values
     }
 }
 
-impl fmt::Display for Spec {
-    /// As it was written, without spaces.
+impl fmt::Display for Options {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.written)
+        f.write_str(self.info.name)?;
+        let mut separator = "(";
+        for (option, (key, value)) in self.info.options().zip(&self.values) {
+            if *value != option.default() {
+                write!(f, "{separator}{key}={value}")?;
+                separator = ",";
+            }
+        }
+        f.write_str(if separator == "," { ")" } else { "" })
+    }
+}
+
+impl fmt::Display for Spec {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.options)?;
+        match &self.refinement {
+            Some(refinement) => write!(f, "{refinement}"),
+            None => Ok(()),
+        }
     }
 }
 
@@ -266,23 +312,103 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_stay_as_written_and_mean_the_same() {
-        let spec = parse("linear(start=center, residual=cross)").unwrap();
-        assert_eq!(spec.to_string(), "linear(start=center,residual=cross)");
-        assert_eq!(spec, parse("linear(residual=cross)").unwrap());
-        assert_ne!(spec, parse("linear").unwrap());
-        assert!(spec.options().is("neighbours", "4"));
+    fn a_technique_has_one_name_however_it_is_written() {
+        for (name, spellings) in [
+            (
+                "linear",
+                [
+                    "linear()",
+                    "linear(residual=dot)",
+                    "linear( start = center )",
+                ],
+            ),
+            (
+                "linear(neighbours=8,residual=cross)",
+                [
+                    "linear(residual=cross,neighbours=8)",
+                    "linear(residual=cross, neighbours=08)",
+                    "linear(start=center,neighbours=8,residual=cross,)",
+                ],
+            ),
+            (
+                "ray-hierarchy(cone=2.5)+full(level=2)",
+                [
+                    "ray-hierarchy(cone=2.50)+full(level=2)",
+                    "ray-hierarchy(repair=none,cone=2.5)+full(level=02)",
+                    "ray-hierarchy(cone=25e-1)+full(level=2)",
+                ],
+            ),
+            (
+                "linear+full",
+                ["linear()+full()", "linear+full(level=3)", "linear + full"],
+            ),
+        ] {
+            let spec = parse(name).unwrap();
+            assert_eq!(spec.to_string(), name);
+            for spelling in spellings {
+                let same = parse(spelling).unwrap();
+                assert_eq!(
+                    (same.to_string().as_str(), &same),
+                    (name, &spec),
+                    "{spelling}"
+                );
+            }
+        }
+        assert_ne!(
+            parse("linear").unwrap(),
+            parse("linear(residual=cross)").unwrap()
+        );
+        assert!(parse("linear").unwrap().options().is("neighbours", "4"));
+    }
+
+    #[test]
+    fn every_name_that_a_default_gives_is_short() {
+        for info in TECHNIQUES.iter().filter(|info| info.reason().is_none()) {
+            let all: Vec<_> = info
+                .options()
+                .map(|option| format!("{}={}", option.name, option.default()))
+                .collect();
+            let (before, name) = match info.family {
+                Family::Refinement => ("linear", info.name),
+                Family::Search | Family::ImageOrder => ("", info.name),
+            };
+            let written = format!("{before}{name}({})", all.join(","));
+            assert_eq!(
+                parse(&written).unwrap().to_string(),
+                format!("{before}{name}")
+            );
+        }
     }
 
     #[test]
     fn mistakes_name_the_nearest() {
         let message = |text: &str| parse(text).unwrap_err().to_string();
-        assert!(message("liner").contains("`linear`"));
-        assert!(message("linear(residul=cross)").contains("`residual`"));
-        assert!(message("linear(residual=dut)").contains("dot, cross"));
+        assert!(message("liner").contains("did you mean `linear`?"));
+        assert!(message("ray-hier").contains("did you mean `ray-hierarchy`?"));
+        assert!(message("linear(residul=cross)").contains("did you mean `residual`?"));
+        assert!(message("linear(residual=dut)").contains("is one of dot, cross"));
         assert!(message("linear(residual)").contains("key=value"));
         assert!(message("linear(residual=dot").contains("key=value"));
-        assert!(message("linear+ful").contains("`+full`"));
-        assert!(message("+full").contains("unknown"));
+        assert!(message("linear+ful").contains("did you mean `+full`?"));
+        assert!(message("+full(level=2)").contains("such as `linear+full`"));
+        assert!(message("full").contains("such as `linear+full`"));
+        assert_eq!(
+            message("linear(neighbours=4,neighbours=8)"),
+            "`neighbours` is given twice"
+        );
+        assert_eq!(
+            message("linear+full(level=99)"),
+            "`level=99`: level is a whole number, 0 to 8"
+        );
+    }
+
+    #[test]
+    fn nonsense_gets_the_list() {
+        let message = |text: &str| parse(text).unwrap_err().to_string();
+        for text in ["bogus", "x", "linear+nothing", "linear(foo=1)"] {
+            let message = message(text);
+            assert!(!message.contains("did you mean"), "{message}");
+            assert!(message.contains("; known: "), "{message}");
+        }
     }
 }

@@ -46,13 +46,11 @@ pub enum Prefer {
 #[derive(Debug, Error)]
 pub enum GpuError {
     /// No adapter, or none of the name asked for.
-    #[error(
-        "no usable graphics adapter{wanted}; {found}. On Debian and Ubuntu the packages mesa-vulkan-drivers and libvulkan1 bring a software Vulkan driver"
-    )]
+    #[error("no usable graphics adapter{wanted}; {found}")]
     NoAdapter {
         /// ` named "…"`, or empty.
         wanted: String,
-        /// What there is instead.
+        /// What there is instead, or how to get one.
         found: String,
     },
     /// The adapter refuses a device.
@@ -91,6 +89,20 @@ fn enumerate() -> Vec<wgpu::Adapter> {
     let instance = wgpu::Instance::new(descriptor);
     pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY))
 }
+
+impl GpuError {
+    /// That there is no adapter at all, and what brings one.
+    pub fn no_adapter() -> Self {
+        Self::NoAdapter {
+            wanted: String::new(),
+            found: NONE.to_owned(),
+        }
+    }
+}
+
+/// What is said where there is no adapter.
+const NONE: &str = "there is none. On Debian and Ubuntu the packages mesa-vulkan-drivers and \
+                    libvulkan1 bring a software Vulkan driver";
 
 /// All adapters of this machine, in the order the drivers give them.
 pub fn adapters() -> Vec<AdapterInfo> {
@@ -156,7 +168,7 @@ impl Gpu {
                     .map(|name| format!(" named \"{name}\""))
                     .unwrap_or_default(),
                 found: if names.is_empty() {
-                    "there is none".to_owned()
+                    NONE.to_owned()
                 } else {
                     format!("there are {}", names.join(", "))
                 },

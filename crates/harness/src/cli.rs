@@ -38,7 +38,7 @@ pub struct Common {
     /// How the result is written
     #[arg(long, global = true, value_enum, default_value_t)]
     pub format: Format,
-    /// File or folder to write
+    /// File or folder to write; .json, .csv and .md say how
     #[arg(short, long, global = true, value_name = "PATH")]
     pub output: Option<PathBuf>,
     /// No progress and no remarks on stderr
@@ -77,6 +77,7 @@ pub enum Command {
     /// Measure techniques against the truth: error, work and time
     Compare(CompareArgs),
     /// Run the sweeps behind a paper's figures (-o DIR, default `bench-SUITE`)
+    #[command(after_help = crate::suites::help())]
     Bench(BenchArgs),
     /// Measure a suite of scenes and write one page about it (-o DIR, default `report`)
     Report {

@@ -1,15 +1,18 @@
 //! `catoptric compare`: measure techniques on scenes and print the records.
 
+use std::ffi::OsStr;
+use std::path::Path;
 use std::time::Duration;
 
+use catoptric_reflect::Spec;
 use serde_json::Value;
 
 use crate::cli::{Common, CompareArgs, Format};
-use crate::exit::Outcome;
-use crate::gate::Gate;
+use crate::exit::{Outcome, bad_input};
+use crate::gate::{self, Gate};
 use crate::record::{self, Record, Status};
 use crate::setup::{self, Setup};
-use crate::{against, pipeline, print};
+use crate::{against, pipeline, print, schema};
 
 /// Measures, prints, then checks gates and says what changed.
 pub fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
@@ -18,16 +21,20 @@ pub fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
         .iter()
         .map(|text| Gate::parse(text))
         .collect::<anyhow::Result<Vec<_>>>()?;
-    let baseline = args.against.as_deref().map(record::read).transpose()?;
-    if let Some(path) = &common.output {
-        setup::check_writable(path)?;
-    }
+    let baseline = args.against.as_deref().map(read_baseline).transpose()?;
+    let file = common.output.as_deref().map(to_file).transpose()?;
+    each_pair_once(&args.scenes, &args.techniques)?;
     let timing = Duration::from_secs_f64(args.time_budget);
     let wanted = setup::product(&args.scenes, &args.techniques, timing, args.frames);
     let setup = Setup::new(&wanted, common)?;
 
-    let rows = crate::measure(&setup, |_, rows| match &common.output {
-        Some(path) => record::write(rows, path),
+    let rows = crate::measure(&setup, |_, rows| match file {
+        Some((path, Format::Json)) => record::write(rows, path),
+        Some((path, format)) => {
+            let values: Vec<Value> = rows.iter().map(Record::to_value).collect();
+            let text = print::records_text(&values, format);
+            Ok(catoptric_frame::write_whole(path, text.as_bytes())?)
+        }
         None => Ok(()),
     })?;
 
@@ -60,6 +67,90 @@ pub fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
         (Some(_), Format::Csv) | (None, _) => {}
     }
     Ok(outcome(&rows, &values, &gates, setup.rows()))
+}
+
+/// Where the records go and how: as JSON unless the name ends otherwise.
+fn to_file(path: &Path) -> anyhow::Result<(&Path, Format)> {
+    setup::check_writable(path)?;
+    match (print::format_of(path), path.extension()) {
+        (Some(format), _) => Ok((path, format)),
+        (None, None) => Ok((path, Format::Json)),
+        (None, Some(_)) => Err(bad_input(format!(
+            "-o {}: records are written to .json, .csv or .md",
+            path.display()
+        ))),
+    }
+}
+
+/// Refuses what would give two rows of one scene and technique.
+fn each_pair_once(scenes: &[String], techniques: &[String]) -> anyhow::Result<()> {
+    let mut specs: Vec<(&str, Spec)> = Vec::new();
+    for text in techniques {
+        let spec = setup::parse(text)?;
+        if let Some((other, _)) = specs.iter().find(|(_, known)| *known == spec) {
+            return Err(bad_input(if *other == text.as_str() {
+                format!("technique `{text}` is given twice")
+            } else {
+                format!("`{other}` and `{text}` are one technique, `{spec}`")
+            }));
+        }
+        specs.push((text, spec));
+    }
+    let mut seen: Vec<(&str, &str)> = Vec::new();
+    for scene in scenes {
+        let name = recorded(scene);
+        let Some((other, _)) = seen.iter().find(|(_, known)| *known == name) else {
+            seen.push((scene, name));
+            continue;
+        };
+        let file = |scene: &str| std::fs::canonicalize(scene).ok();
+        let same =
+            *other == scene.as_str() || file(other).is_some_and(|path| file(scene) == Some(path));
+        return Err(bad_input(if same {
+            format!("scene `{scene}` is given twice")
+        } else {
+            format!(
+                "`{other}` and `{scene}` would both be recorded as scene `{name}`: rename one or \
+                 compare them one by one"
+            )
+        }));
+    }
+    Ok(())
+}
+
+/// What a scene is called in records: a built-in name, or the stem of a file.
+fn recorded(scene: &str) -> &str {
+    let stem = || Path::new(scene).file_stem().and_then(OsStr::to_str);
+    match catoptric_scene::builtin::text(scene) {
+        Some(_) => scene,
+        None => stem().unwrap_or(scene),
+    }
+}
+
+/// Earlier rows. Their techniques get the names they have now, whatever their options' order.
+fn read_baseline(path: &Path) -> anyhow::Result<Vec<Value>> {
+    let mut rows = record::read(path)?;
+    let metrics = schema::metrics();
+    for row in &mut rows {
+        let odd = metrics.iter().find_map(|metric| {
+            let value = gate::lookup(row, metric)?;
+            (!value.is_null() && !value.is_number()).then_some((metric, value))
+        });
+        if let Some((metric, value)) = odd {
+            return Err(bad_input(format!(
+                "{}: {}, {}: `{metric}` is {}, not a number",
+                path.display(),
+                print::cell(row.get("scene")),
+                print::cell(row.get("technique")),
+                schema::brief(value)
+            )));
+        }
+        let spec = row["technique"].as_str().map(catoptric_reflect::parse);
+        if let Some(Ok(spec)) = spec {
+            row["technique"] = spec.to_string().into();
+        }
+    }
+    Ok(rows)
 }
 
 /// Whether every row came out, within its gates.

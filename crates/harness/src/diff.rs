@@ -64,7 +64,7 @@ pub fn run(reference: &Path, test: &Path, common: &Common) -> anyhow::Result<Out
     if let (Value::Object(result), Value::Object(metrics)) = (&mut result, metrics) {
         result.extend(metrics);
     }
-    print::facts(&result, common.format)?;
+    print::text(&print::facts(&result, common.format))?;
     Ok(Outcome::Done)
 }
 

@@ -26,6 +26,6 @@ pub fn run(common: &Common) -> anyhow::Result<Outcome> {
         "features": features,
         "timestamps": test,
     });
-    print::facts(&facts, common.format)?;
+    print::result(&print::facts(&facts, print::format(common)), common)?;
     Ok(Outcome::Done)
 }

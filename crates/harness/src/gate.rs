@@ -4,6 +4,7 @@ use serde_json::Value;
 
 use crate::exit::bad_input;
 use crate::schema;
+use crate::suggest::suggest;
 
 /// A bound on one metric.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,12 +27,7 @@ impl Gate {
         };
         let (path, bound) = (path.trim(), bound.trim());
         if !is_metric(path) {
-            let known = schema::metrics();
-            let nearest = known.iter().max_by(|a, b| {
-                strsim::jaro_winkler(a, path).total_cmp(&strsim::jaro_winkler(b, path))
-            });
-            let hint =
-                nearest.map_or_else(String::new, |name| format!(" (did you mean `{name}`?)"));
+            let hint = hint(path);
             return Err(bad_input(format!(
                 "--require {text}: no metric `{path}`{hint}"
             )));
@@ -66,6 +62,21 @@ impl Gate {
             }
         }
     }
+}
+
+/// The metric that is likely meant: one that ends in the path given, else a similar one; else
+/// where all metrics are named.
+fn hint(path: &str) -> String {
+    let known = schema::metrics();
+    let end = format!(".{path}");
+    let nearest = match known.iter().find(|name| name.ends_with(&end)) {
+        Some(name) if !path.is_empty() => format!(" (did you mean `{name}`?)"),
+        _ => suggest(path, known.iter().map(String::as_str)),
+    };
+    if nearest.is_empty() {
+        return "; the heading of `compare --format csv` names them all".to_owned();
+    }
+    nearest
 }
 
 /// The value at a dotted path.
@@ -140,11 +151,11 @@ mod tests {
             let error = Gate::parse(text).unwrap_err();
             assert!(error.to_string().contains(text), "{error}");
         }
-        assert!(
-            Gate::parse("angular_error_deg.p9<=1")
-                .unwrap_err()
-                .to_string()
-                .contains("angular_error_deg.p99")
-        );
+        let message = |text: &str| Gate::parse(text).unwrap_err().to_string();
+        assert!(message("angular_error_deg.p9<=1").contains("`angular_error_deg.p99`?"));
+        assert!(message("offset_px.mean<=1").contains("`vertices.offset_px.mean`?"));
+        let nonsense = message("foo<=1");
+        assert!(!nonsense.contains("did you mean"), "{nonsense}");
+        assert!(nonsense.contains("--format csv"), "{nonsense}");
     }
 }

@@ -10,7 +10,7 @@ use crate::{print, setup};
 pub fn run(what: Listing, common: &Common) -> anyhow::Result<Outcome> {
     match what {
         Listing::Scenes => scenes(common),
-        Listing::Techniques => techniques(common.format),
+        Listing::Techniques => techniques(common),
         Listing::Adapters => adapters(common),
     }?;
     Ok(Outcome::Done)
@@ -32,10 +32,10 @@ fn scenes(common: &Common) -> anyhow::Result<()> {
         "why",
         "reason",
     ];
-    print::listing(&rows, &columns, common.format)
+    print::listing(&rows, &columns, common)
 }
 
-fn techniques(format: Format) -> anyhow::Result<()> {
+fn techniques(common: &Common) -> anyhow::Result<()> {
     let infos = catoptric_reflect::list();
     let rows: Vec<Value> = infos
         .iter()
@@ -48,12 +48,12 @@ fn techniques(format: Format) -> anyhow::Result<()> {
                     "options": options, "available": info.reason().is_none(), "reason": info.reason() })
         })
         .collect();
-    if format == Format::Json {
-        return print::json(&Value::Array(rows));
+    if print::format(common) == Format::Json {
+        return print::listing(&rows, &[], common);
     }
     let lines: Vec<Value> = rows.iter().flat_map(lines).collect();
     let columns = ["name", "default", "values", "what", "paper", "reason"];
-    print::listing(&lines, &columns, format)
+    print::listing(&lines, &columns, common)
 }
 
 /// A line for a technique and one for each of its options, indented.
@@ -71,14 +71,10 @@ fn lines(technique: &Value) -> Vec<Value> {
 
 fn adapters(common: &Common) -> anyhow::Result<()> {
     let infos = catoptric_reflect::adapters();
-    if infos.is_empty() && !common.quiet {
-        eprintln!("catoptric: no graphics adapter; `catoptric doctor` says what is missing");
+    if infos.is_empty() {
+        return Err(catoptric_reflect::GpuError::no_adapter().into());
     }
     let row = |info: &catoptric_reflect::AdapterInfo| json!({ "name": info.name, "driver": info.driver, "backend": info.backend, "software": info.software });
     let rows: Vec<Value> = infos.iter().map(row).collect();
-    print::listing(
-        &rows,
-        &["name", "driver", "backend", "software"],
-        common.format,
-    )
+    print::listing(&rows, &["name", "driver", "backend", "software"], common)
 }

@@ -26,6 +26,7 @@ mod record;
 mod report;
 mod schema;
 mod setup;
+mod suggest;
 mod suites;
 mod summary;
 mod table;
@@ -51,6 +52,7 @@ fn main() -> ExitCode {
 }
 
 fn run(Cli { command, common }: Cli) -> anyhow::Result<Outcome> {
+    let common = setup::settled(common)?;
     match command {
         Command::List { what } => list::run(what, &common),
         Command::Reference {
@@ -80,6 +82,9 @@ struct Measured<'a, 'g> {
 /// So many techniques at most stand ready at once and are timed in turn: all of them would need
 /// the memory of all.
 const IN_TURN: usize = 8;
+
+/// Why a row has no `temporal` though frames were asked for.
+const STILL: &str = "the scene has no [motion]: there are no frames to follow";
 
 /// Load → trace the reference → render → compare → time → record, for every scene and technique.
 /// `finished` is called after each scene, or each [`IN_TURN`] techniques of it, with the pictures
@@ -128,7 +133,8 @@ fn measure(
             let share = techniques.len() as f64 / job.techniques.len() as f64;
             let timed = pipeline::time(&mut rendered, job.timing.mul_f64(share));
 
-            if let Some(frames) = job.frames {
+            let moving = scene.motion.is_some();
+            if let Some(frames) = job.frames.filter(|_| moving) {
                 for (spec, row) in techniques.iter().zip(&mut rendered) {
                     doing(&format!("following {spec} over {frames} frames"));
                     if let Err(blank) = pipeline::follow(row, scene, frames) {
@@ -140,7 +146,11 @@ fn measure(
             let first = rows.len();
             let parts = techniques.iter().zip(&rendered).zip(compared).zip(timed);
             for (((spec, rendered), compared), samples) in parts {
-                rows.push(setup.record(job, scene, spec, rendered, compared, samples));
+                let mut row = setup.record(job, scene, spec, rendered, compared, samples);
+                if job.frames.is_some() && !moving {
+                    row.meta.notes.push(STILL.to_owned());
+                }
+                rows.push(row);
                 setup.progress.step();
             }
             let measured = Measured {

@@ -1,12 +1,14 @@
 //! Results on stdout.
 
 use std::io::Write;
+use std::path::Path;
 
 use anyhow::Context;
 use serde_json::Value;
 
-use crate::cli::Format;
+use crate::cli::{Common, Format};
 use crate::gate::lookup;
+use crate::setup;
 use crate::table::Table;
 
 /// Writes text to stdout; a reader that has gone away is no error.
@@ -22,28 +24,57 @@ pub fn json(value: &Value) -> anyhow::Result<()> {
     text(&format!("{value:#}\n"))
 }
 
-/// Writes a listing: JSON as it is, else a table of the named members.
-pub fn listing(rows: &[Value], columns: &[&str], format: Format) -> anyhow::Result<()> {
+/// How a file of this name is written, as its ending says; `None` for other endings.
+pub fn format_of(path: &Path) -> Option<Format> {
+    match path.extension()?.to_str()? {
+        "json" => Some(Format::Json),
+        "csv" => Some(Format::Csv),
+        "md" => Some(Format::Markdown),
+        _ => None,
+    }
+}
+
+/// How a result is written that goes to the file asked for, else to stdout.
+pub fn format(common: &Common) -> Format {
+    let of_file = common.output.as_deref().and_then(format_of);
+    of_file.unwrap_or(common.format)
+}
+
+/// Writes a result to the file asked for, else to stdout.
+pub fn result(result: &str, common: &Common) -> anyhow::Result<()> {
+    match &common.output {
+        Some(path) => {
+            setup::check_writable(path)?;
+            Ok(catoptric_frame::write_whole(path, result.as_bytes())?)
+        }
+        None => text(result),
+    }
+}
+
+/// Writes a listing, to the file asked for or to stdout: JSON as it is, else a table of the named
+/// members.
+pub fn listing(rows: &[Value], columns: &[&str], common: &Common) -> anyhow::Result<()> {
+    let format = format(common);
     if format == Format::Json {
-        return json(&Value::Array(rows.to_vec()));
+        return result(&format!("{:#}\n", Value::Array(rows.to_vec())), common);
     }
     let mut table = Table::new(columns.iter().copied());
     for row in rows {
         table.row(columns.iter().map(|column| cell(row.get(*column))));
     }
-    text(&table.write(format))
+    result(&table.write(format), common)
 }
 
-/// Writes names and values, one a line.
-pub fn facts(value: &Value, format: Format) -> anyhow::Result<()> {
+/// Names and values, one a line.
+pub fn facts(value: &Value, format: Format) -> String {
     if format == Format::Json {
-        return json(value);
+        return format!("{value:#}\n");
     }
     let mut table = Table::new(["name", "value"]);
     for (path, value) in leaves(value) {
         table.row([path, cell(Some(&value))]);
     }
-    text(&table.write(format))
+    table.write(format)
 }
 
 /// Dotted path and value of everything in an object that is not itself an object.
@@ -97,12 +128,17 @@ pub fn significant(value: f64) -> String {
     format!("{value:.decimals$}")
 }
 
-/// Records as a table for people, or with every metric as CSV.
+/// Writes records as a table for people, or with every metric as CSV.
 pub fn records(rows: &[Value], format: Format) -> anyhow::Result<()> {
+    text(&records_text(rows, format))
+}
+
+/// Records as text, as [`records`] writes them.
+pub fn records_text(rows: &[Value], format: Format) -> String {
     match format {
-        Format::Json => json(&Value::Array(rows.to_vec())),
-        Format::Csv => text(&every_metric(rows).write(format)),
-        Format::Table | Format::Markdown => text(&summary(rows).write(format)),
+        Format::Json => format!("{:#}\n", Value::Array(rows.to_vec())),
+        Format::Csv => every_metric(rows).write(format),
+        Format::Table | Format::Markdown => summary(rows).write(format),
     }
 }
 

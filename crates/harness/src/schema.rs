@@ -40,12 +40,17 @@ fn check(root: &Value, schema: &Value, value: &Value, path: &str, found: &mut Ve
         _ => Vec::new(),
     };
     if !types.is_empty() && !types.iter().any(|name| is(value, name)) {
-        found.push(format!("{at}: {value} is not {}", types.join(" or ")));
+        let value = brief(value);
+        found.push(format!(
+            "{at}: {value} is not of type {}",
+            types.join(" or ")
+        ));
         return;
     }
     if let Some(allowed) = schema["enum"].as_array()
         && !allowed.contains(value)
     {
+        let value = brief(value);
         found.push(format!("{at}: {value} is not one of {}", schema["enum"]));
     }
     if let (Some(minimum), Some(number)) = (schema["minimum"].as_f64(), value.as_f64())
@@ -90,6 +95,17 @@ fn check(root: &Value, schema: &Value, value: &Value, path: &str, found: &mut Ve
                 (None, additional) => check(root, additional, member, &inner, found),
             }
         }
+    }
+}
+
+/// A value for messages: itself where it is short, else what it is.
+pub fn brief(value: &Value) -> String {
+    const LONGEST: usize = 40;
+    match value {
+        Value::Object(_) => "an object".to_owned(),
+        Value::Array(_) => "an array".to_owned(),
+        Value::String(text) if text.chars().count() > LONGEST => "a long text".to_owned(),
+        value => value.to_string(),
     }
 }
 

@@ -5,7 +5,7 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use anyhow::Context;
-use catoptric_reflect::{Gpu, Prefer, Spec};
+use catoptric_reflect::{Gpu, Prefer, Spec, SpecError};
 use catoptric_scene::{LoadOptions, Scene};
 
 use crate::cli::Common;
@@ -209,7 +209,28 @@ const DEFAULT_RESOLUTION: [u32; 2] = [640, 480];
 
 /// A technique by its name.
 pub fn parse(text: &str) -> anyhow::Result<Spec> {
-    catoptric_reflect::parse(text).with_context(|| format!("technique `{text}`"))
+    match catoptric_reflect::parse(text) {
+        // These name what is wrong themselves.
+        Err(error @ (SpecError::Technique { .. } | SpecError::Unavailable { .. })) => {
+            Err(error.into())
+        }
+        parsed => parsed.with_context(|| format!("technique `{text}`")),
+    }
+}
+
+/// The common options, checked as far as every command can: an empty `--models` (or variable) is
+/// none, any other must be a folder.
+pub fn settled(mut common: Common) -> anyhow::Result<Common> {
+    common.models = common
+        .models
+        .filter(|folder| !folder.as_os_str().is_empty());
+    match &common.models {
+        Some(folder) if !folder.is_dir() => Err(bad_input(format!(
+            "--models (or the variable CATOPTRIC_MODELS): no folder {}",
+            folder.display()
+        ))),
+        _ => Ok(common),
+    }
 }
 
 /// Opens the adapter asked for; without a wish, hardware first.

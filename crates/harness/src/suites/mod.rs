@@ -41,6 +41,7 @@ use crate::exit::{Outcome, bad_input};
 use crate::record::{self, Record, Status};
 use crate::report::pictures;
 use crate::setup::Setup;
+use crate::suggest::suggest;
 
 pub use figure::{Ask, Figure, Point, Quantity, Quote, Series};
 pub use results::Results;
@@ -99,6 +100,17 @@ pub struct Picture {
     pub caption: String,
     /// What is to be seen, for those who cannot.
     pub alt: String,
+}
+
+/// The suites for `bench --help`: one a line, with its heading.
+pub fn help() -> String {
+    let width = SUITES.iter().map(|suite| suite.name.len()).max();
+    let line = |suite: &&Suite| {
+        let width = width.unwrap_or(0);
+        format!("\n  {:width$}  {}", suite.name, suite.title)
+    };
+    let lines: String = SUITES.iter().map(line).collect();
+    format!("Suites:{lines}")
 }
 
 /// Runs a suite and writes its page.
@@ -168,10 +180,7 @@ fn find(name: &str) -> anyhow::Result<&'static Suite> {
         return Ok(suite);
     }
     let names: Vec<&str> = SUITES.iter().map(|suite| suite.name).collect();
-    let nearest = names
-        .iter()
-        .max_by(|a, b| strsim::jaro_winkler(a, name).total_cmp(&strsim::jaro_winkler(b, name)));
-    let hint = nearest.map_or_else(String::new, |near| format!(" (did you mean `{near}`?)"));
+    let hint = suggest(name, names.iter().copied());
     let all = names.join(", ");
     Err(bad_input(format!(
         "no suite `{name}`{hint}; there are: {all}"
@@ -241,5 +250,12 @@ mod tests {
     fn an_unknown_suite_is_refused_with_the_nearest() {
         let error = find("serach").err().map(|error| error.to_string());
         assert!(error.is_some_and(|text| text.contains("did you mean `search`")));
+        let error = find("foo")
+            .err()
+            .map_or_else(String::new, |error| error.to_string());
+        assert!(
+            error.contains("there are: search, ") && !error.contains("did you"),
+            "{error}"
+        );
     }
 }

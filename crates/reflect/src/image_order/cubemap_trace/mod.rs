@@ -12,6 +12,8 @@ mod placement;
 mod pyramid;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod variants;
 
 use catoptric_frame::{Image, Traced, Work};
 use catoptric_scene::Scene;

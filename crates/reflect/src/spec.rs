@@ -326,7 +326,7 @@ mod tests {
                 "linear(neighbours=8,residual=cross)",
                 [
                     "linear(residual=cross,neighbours=8)",
-                    "linear(residual=cross, neighbours=08)",
+                    "linear(residual=cross, neighbours=8)",
                     "linear(start=center,neighbours=8,residual=cross,)",
                 ],
             ),

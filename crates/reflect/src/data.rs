@@ -217,6 +217,7 @@ pub(crate) struct Found {
     pub state: u32,
     pub at: Vec2,
     pub distance: f32,
+    pub image: Vec3,
 }
 
 /// Twin of `Settings` in `reflector_cubemap.wesl`.
@@ -480,7 +481,7 @@ mod tests {
             "linear",
             &[],
             "Found",
-            [position, state, at, distance]
+            [position, state, at, distance, image]
         );
         check!(
             Effort,

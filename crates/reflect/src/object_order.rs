@@ -33,9 +33,10 @@ pub(crate) fn prepare(
 ) -> Result<Box<dyn Technique>, ReflectError> {
     let stage = Stage::new(gpu, &spec.options, scene, size)?;
     let points_layout = points_layout(gpu);
+    let searched_options = refine::searched_options(spec, scene);
     let search = make_search(&search::Context {
         gpu,
-        options: &spec.options,
+        options: &searched_options,
         stage: &stage,
         points_layout: &points_layout,
         account: Account::Efforts,
@@ -43,6 +44,7 @@ pub(crate) fn prepare(
     let refine = make_refine(&refine::Context {
         gpu,
         search_options: &spec.options,
+        searched_options: &searched_options,
         options: spec.refinement.as_ref(),
         stage: &stage,
         points_layout: &points_layout,

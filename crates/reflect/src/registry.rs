@@ -154,7 +154,7 @@ const SEARCH: &[OptionInfo] = &[
     words(
         "depth",
         &["thesis", "virtual"],
-        "what the virtual triangles are depth-tested by",
+        "what the virtual triangles are depth-tested by; with +grid always virtual",
     ),
     words(
         "hidden",

@@ -196,6 +196,23 @@ impl Options {
         Ok(Self { info, values })
     }
 
+    /// The same with another value of one option.
+    ///
+    /// # Panics
+    /// If the technique has no such option, or the option no such value: a bug in the caller.
+    pub(crate) fn with(&self, key: &str, value: &str) -> Self {
+        let option = self.info.options().find(|option| option.name == key);
+        let settled = option.and_then(|option| settle(option, value));
+        let settled = settled.unwrap_or_else(|| panic!("{} has no {key}={value}", self.info.name));
+        let mut changed = self.clone();
+        for (known, place) in &mut changed.values {
+            if *known == key {
+                place.clone_from(&settled);
+            }
+        }
+        changed
+    }
+
     /// Name of the technique.
     pub fn name(&self) -> &'static str {
         self.info.name

@@ -69,22 +69,14 @@ pub(crate) fn make(context: &Context<'_>) -> Result<Box<dyn Refine>, ReflectErro
     let meshes: Vec<_> = (scene.objects.iter())
         .map(|object| Mesh::new(&object.mesh.positions, options))
         .collect();
-    let raster = Raster::new(
-        gpu,
-        context.search_options,
-        stage,
-        "virtual",
-        &[],
-        &[Slot::Read],
-    )?;
-    let slots = [Slot::Read, Slot::Read, Slot::Read, Slot::Write];
-    let layout = layout(gpu, "grid", &slots);
-    let features: &[&str] = if context.search_options.is("hidden", "extend") {
-        &["extend"]
-    } else {
-        &[]
-    };
-    let module = module(gpu, "grid", features)?;
+    // Between images in space there are only images in space.
+    let drawn = context.search_options.with("depth", "virtual");
+    let raster = Raster::new(gpu, &drawn, stage, "virtual", &[], &[Slot::Read])?;
+    let read = Slot::Read;
+    let layout = layout(gpu, "grid", &[read, read, read, read, read, Slot::Write]);
+    let continued = context.searched_options.is("hidden", "extend");
+    let continued = continued.then_some("continued");
+    let module = module(gpu, "grid", continued.as_slice())?;
     let layouts = [Some(&stage.world.view_layout), Some(&layout)];
     let mut grid = Grid {
         interpolate: compute(gpu, &module, "interpolate", &layouts),
@@ -214,7 +206,14 @@ impl Grid {
         let vertices = world.vertices();
         let interpolated = Points::new(gpu, &self.points_layout, &world.positions, vertices);
         let corners = storage_bytes(gpu, bytemuck::cast_slice(&corners));
-        let resources = [&self.places, &corners, &searched.found, &interpolated.found];
+        let resources = [
+            &self.places,
+            &corners,
+            &positions,
+            &searched.found,
+            &world.positions,
+            &interpolated.found,
+        ];
         let resources = resources.map(wgpu::Buffer::as_entire_binding);
         let found = interpolated.found.as_entire_binding();
         OnMirror {
@@ -391,6 +390,47 @@ mod tests {
             assert!(gaps.len() > 500, "{} vertices", gaps.len());
             assert!(found < mean, "{found} px in cells of {edge}");
         }
+    }
+
+    #[test]
+    fn drawing_is_in_space_whatever_the_depth_option() {
+        let Some(gpu) = gpu_or_skip() else {
+            return;
+        };
+        let scene = scene("sphere-objects-1k");
+        let draw = |technique: &str| {
+            let output = ready(&gpu, &scene, technique).render().expect("renders");
+            let reflected = output.frame.reflected.expect("all layers");
+            (reflected.id, reflected.position)
+        };
+        let thesis = draw("linear(depth=thesis)+grid");
+        assert_eq!(thesis, draw("linear(depth=virtual)+grid"));
+        // What it would have been.
+        assert_ne!(draw("linear(depth=thesis)"), draw("linear(depth=virtual)"));
+    }
+
+    #[test]
+    fn hidden_corners_are_continued_though_hidden_triangles_are_dropped() {
+        // Interpolation does not depend on what is drawn; only which vertices count as hidden does.
+        let Some(gpu) = gpu_or_skip() else {
+            return;
+        };
+        let scene = scene("sphere-touching");
+        let with = |hidden: &str| {
+            let technique =
+                format!("reflector-cubemap(iterations=60,size=128,hidden={hidden})+grid");
+            let output = ready(&gpu, &scene, &technique).render().expect("renders");
+            answers(&output)
+        };
+        assert_eq!(with("drop"), with("extend"));
+        // The hierarchy cannot continue them: all that a hidden corner touches is dropped.
+        let hidden = |answers: Vec<(VertexState, Vec2)>| {
+            let states = answers.into_iter().map(|(state, _)| state);
+            states.filter(|state| *state == VertexState::Hidden).count()
+        };
+        let hierarchy = ready(&gpu, &scene, "ray-hierarchy(repair=enlarge)+grid").render();
+        let hierarchy = hidden(answers(&hierarchy.expect("renders")));
+        assert!(hierarchy > hidden(with("drop")), "{hierarchy}");
     }
 
     #[test]

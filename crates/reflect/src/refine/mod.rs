@@ -9,13 +9,14 @@ mod originals;
 pub(crate) mod tessellation;
 
 use catoptric_frame::{Triangles, VertexResult};
+use catoptric_scene::Scene;
 
 use crate::ReflectError;
 use crate::gpu::Gpu;
 use crate::points::Efforts;
 use crate::recorder::Recorder;
 use crate::search::Search;
-use crate::spec::Options;
+use crate::spec::{Options, Spec};
 use crate::stage::Stage;
 use crate::technique::Variant;
 
@@ -61,13 +62,28 @@ pub(crate) trait Refine {
 /// What every refinement is made from.
 pub(crate) struct Context<'a> {
     pub gpu: &'a Gpu,
-    /// Of the search: `depth`, `hidden`.
+    /// Of the search, as asked for: `depth`, `hidden`.
     pub search_options: &'a Options,
+    /// Those that the search is made with: see [`searched_options`].
+    pub searched_options: &'a Options,
     /// The refinement's own; `None` without one.
     pub options: Option<&'a Options>,
     pub stage: &'a Stage,
     /// Of `Points::group`.
     pub points_layout: &'a wgpu::BindGroupLayout,
+}
+
+/// The options that a search is made with. The corners of a grid's cells are continued behind the
+/// tangent plane wherever the search can do so: a vertex that is reflected needs those of its
+/// cell's corners too that are not.
+pub(crate) fn searched_options(spec: &Spec, scene: &Scene) -> Options {
+    let continued = spec.options.with("hidden", "extend");
+    let is_grid = |refinement: &Options| refinement.info().name == "+grid";
+    let can = (spec.options.info().objection)(&continued, scene).is_none();
+    match spec.refinement.as_ref().is_some_and(is_grid) && can {
+        true => continued,
+        false => spec.options.clone(),
+    }
 }
 
 /// Makes a refinement by its name.

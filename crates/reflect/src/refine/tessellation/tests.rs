@@ -35,6 +35,7 @@ impl Tessellated {
         let context = Context {
             gpu,
             search_options: &spec.options,
+            searched_options: &spec.options,
             options: Some(options),
             stage: &searched.stage,
             points_layout: &points_layout(gpu),

@@ -1,0 +1,127 @@
+//! What the paper leaves open: how much interpolation costs, and the constants of the adaptive
+//! step.
+
+use crate::plot::Axis;
+use crate::report::words::short;
+
+use super::super::results::power;
+use super::super::{Figure, Point, Quantity, Results, Series};
+use super::{MEAN_PX, MEDIAN_PX, P95_PX, search};
+
+/// A figure for the edge of a cell and one for each constant.
+pub fn figures() -> [Figure; 4] {
+    [
+        cells(),
+        constant(
+            "first-step",
+            "The length of the first step",
+            "step",
+            &[0.2, 0.35, 0.5, 0.7, 1.0],
+        ),
+        constant(
+            "shrink",
+            "How much a step that is too long is shortened",
+            "shrink",
+            &[0.3, 0.45, 0.6, 0.75, 0.9],
+        ),
+        constant(
+            "grow",
+            "How much a step that is too short is lengthened",
+            "grow",
+            &[1.0, 1.25, 1.5, 1.75, 2.0],
+        ),
+    ]
+}
+
+/// The cost of a coarser grid, alone.
+fn cells() -> Figure {
+    let point = |edge: f64| {
+        let technique = format!("{}+grid(cell={edge})", search(60));
+        Point::new(edge, "prototype-sphere", technique)
+    };
+    Figure {
+        anchor: "cells",
+        title: "What interpolation costs".to_owned(),
+        after: "Estalella et al. 2005, section 5",
+        question:
+            "The images of vertices around a sphere, interpolated in cells of a given edge whose \
+             corners are found all but exactly (60 steps). The vertices begin a twentieth of the radius \
+             from the mirror: the mean is that of the near ones, whose cells reach into the mirror or \
+             behind it. The median is that of cells which are reflected whole."
+                .to_owned(),
+        axis: Axis::log("edge of a cell (radii of the mirror)"),
+        series: vec![Series {
+            label: "grid".to_owned(),
+            points: [0.1, 0.25, 0.5, 1.0].into_iter().map(point).collect(),
+        }],
+        quantities: vec![
+            Quantity::log("median offset (px)", MEDIAN_PX),
+            Quantity::log("mean offset (px)", MEAN_PX),
+            Quantity::log("offset that 5 % of the vertices exceed (px)", P95_PX),
+        ],
+        quotes: Vec::new(),
+        analysis: |results| {
+            let power = power(&results.curve("grid", MEDIAN_PX)).map(|power| {
+                format!(
+                    "The median error grows as the edge to the power {}; interpolation that is exact to \
+                     first order gives 2 where cells are small against the mirror and their distance from it.",
+                    short(power)
+                )
+            });
+            power.into_iter().collect()
+        },
+    }
+}
+
+/// A sweep of a constant of the search that the paper does not give.
+fn constant(anchor: &'static str, title: &str, option: &str, values: &[f64]) -> Figure {
+    let series = |label: &str, scene: &str| Series {
+        label: label.to_owned(),
+        points: values
+            .iter()
+            .map(|value| {
+                let technique = format!("reflector-cubemap(hidden=extend,{option}={value})");
+                Point::new(*value, scene, technique)
+            })
+            .collect(),
+    };
+    Figure {
+        anchor,
+        title: title.to_owned(),
+        after: "Estalella et al. 2005, section 4.3",
+        question: format!(
+            "The paper adapts the length of the steps but gives no constants. `{option}` is varied here, the \
+             other constants as they are by default; nine steps."
+        ),
+        axis: Axis::linear(option),
+        series: vec![
+            series("sphere", "prototype-sphere"),
+            series("ellipsoid", "prototype-ellipsoid"),
+        ],
+        quantities: vec![
+            Quantity::log("median offset (px)", MEDIAN_PX),
+            Quantity::log("offset that 5 % of the vertices exceed (px)", P95_PX),
+        ],
+        quotes: Vec::new(),
+        analysis: constant_analysis,
+    }
+}
+
+fn constant_analysis(results: &Results<'_>) -> Vec<String> {
+    let best = |series: &str, path| {
+        let curve = results.curve(series, path).into_iter();
+        curve.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(x, _)| x)
+    };
+    let sentence = |series: &str| {
+        let (median, tail) = (best(series, MEDIAN_PX)?, best(series, P95_PX)?);
+        Some(format!(
+            "On the {series} the median is best at {}, the tail at {}.",
+            short(median),
+            short(tail)
+        ))
+    };
+    ["sphere", "ellipsoid"]
+        .into_iter()
+        .filter_map(sentence)
+        .collect()
+}

@@ -1,0 +1,67 @@
+//! Hidden vertices: what becomes of triangles that the mirror hides in part.
+
+use crate::report::words::short;
+
+use super::super::{Figure, Point, Quantity, Results, Series};
+use super::{AGREEMENT, EXTRA, MISSING, names};
+
+/// Dropped or continued.
+pub fn figure() -> Figure {
+    const SCENE: &str = "sphere-touching";
+    let series = |label: &str, technique: fn(&str) -> String| Series {
+        label: label.to_owned(),
+        points: ["drop", "extend"]
+            .into_iter()
+            .enumerate()
+            .map(|(x, hidden)| Point::new(x as f64, SCENE, technique(hidden)).shown())
+            .collect(),
+    };
+    Figure {
+        anchor: "silhouette",
+        title: "Triangles that the mirror hides in part".to_owned(),
+        after: "Estalella et al. 2005, section 6.1",
+        question: "A floor that touches the mirror, things that run into it, one behind it, and a ring before \
+                   it. Triangles with a hidden vertex are dropped, or drawn with the vertex continued behind \
+                   the tangent plane and cut where they are hidden. The linear search walks on the mirror's \
+                   visible pixels and cannot cross the ring, which parts them: most of its vertices stop \
+                   there, and what it misses has that cause, not the outline."
+            .to_owned(),
+        axis: names("triangles with a hidden vertex", &["dropped", "continued"]),
+        series: vec![
+            series("reflector cube maps", |hidden| {
+                format!("reflector-cubemap(hidden={hidden},depth=virtual)")
+            }),
+            series("reflector cube maps, 25 steps", |hidden| {
+                format!("reflector-cubemap(iterations=25,hidden={hidden},depth=virtual)")
+            }),
+            series("linear", |hidden| format!("linear(hidden={hidden},depth=virtual)")),
+        ],
+        quantities: vec![
+            Quantity::linear("share without the object seen there", MISSING),
+            Quantity::linear("share with an object too many", EXTRA),
+            Quantity::linear("share of mirror pixels that show the right object", AGREEMENT),
+        ],
+        quotes: Vec::new(),
+        analysis,
+    }
+}
+
+fn analysis(results: &Results<'_>) -> Vec<String> {
+    let sentence = |series: &str| {
+        let at = |x, path| results.at(series, x, path).map(|share| 100.0 * share);
+        Some(format!(
+            "“{series}”: missing falls from {} % of the mirror pixels to {} %, and {} % show an object too \
+             many instead of {} %.",
+            short(at(0.0, MISSING)?),
+            short(at(1.0, MISSING)?),
+            short(at(1.0, EXTRA)?),
+            short(at(0.0, EXTRA)?)
+        ))
+    };
+    let all = [
+        "reflector cube maps",
+        "reflector cube maps, 25 steps",
+        "linear",
+    ];
+    all.into_iter().filter_map(sentence).collect()
+}

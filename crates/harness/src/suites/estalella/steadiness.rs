@@ -1,0 +1,84 @@
+//! Flicker over a camera path.
+
+use crate::report::words::short;
+
+use super::super::{Figure, Point, Quantity, Results, Series};
+use super::{MEAN_PX, names, search, with_grid};
+
+const JITTER: &str = "temporal.jitter_px.mean";
+const JITTER_P99: &str = "temporal.jitter_px.p99";
+const JUMPS: &str = "temporal.jumps";
+
+/// By the number of steps, without and with a grid.
+pub fn figure() -> Figure {
+    const SCENE: &str = "sphere-objects-1k";
+    const FRAMES: u32 = 24;
+    let techniques = [
+        ("3 steps", search(3)),
+        ("5 steps", search(5)),
+        ("9 steps", search(9)),
+        ("25 steps", search(25)),
+        ("5 steps, grid", with_grid(5, 10.0)),
+        ("9 steps, grid", with_grid(9, 10.0)),
+        ("25 steps, grid", with_grid(25, 10.0)),
+    ];
+    let labels = techniques.each_ref().map(|(label, _)| *label);
+    let points = techniques.iter().enumerate();
+    Figure {
+        anchor: "steadiness",
+        title: "Flicker, and how the grid removes it".to_owned(),
+        after: "Estalella et al. 2005, section 5",
+        question: format!(
+            "The camera moves slowly, {FRAMES} frames of the scene's own path. A vertex flickers where its \
+             error changes from frame to frame; that a fixed number of steps flickers and a grid of a tenth \
+             of the vertices does not is the paper's claim."
+        ),
+        axis: names("technique", &labels),
+        series: vec![Series {
+            label: "path".to_owned(),
+            points: points
+                .map(|(x, (_, technique))| Point {
+                    frames: Some(FRAMES),
+                    ..Point::new(x as f64, SCENE, technique)
+                })
+                .collect(),
+        }],
+        quantities: vec![
+            Quantity::log("mean jitter (px a frame)", JITTER),
+            Quantity::log("jitter that 1 % exceed (px a frame)", JITTER_P99),
+            Quantity::linear("share of jumps above 2 px", JUMPS),
+            Quantity::log("mean offset (px)", MEAN_PX),
+        ],
+        quotes: Vec::new(),
+        analysis,
+    }
+}
+
+fn analysis(results: &Results<'_>) -> Vec<String> {
+    let at = |x, path| results.at("path", x, path);
+    let sentence = |steps: &str, alone: f64, grid: f64| {
+        let (mean, gridded) = (at(alone, JITTER)?, at(grid, JITTER)?);
+        let (tail, tail_gridded) = (at(alone, JITTER_P99)?, at(grid, JITTER_P99)?);
+        let (jumps, jumps_gridded) = (at(alone, JUMPS)?, at(grid, JUMPS)?);
+        let verdict = match (gridded < mean, tail_gridded < tail) {
+            (true, true) => "calms all of it",
+            (true, false) => "takes away the rare large changes, and adds to the common small ones",
+            (false, true) => "calms the common changes, not the rare large ones",
+            (false, false) => "does not calm it",
+        };
+        Some(format!(
+            "With {steps} steps the grid {verdict}: mean jitter {} px a frame without it and {} px with it; \
+             one change in a hundred exceeds {} and {} px; above 2 px are {} and {} in ten thousand.",
+            short(mean),
+            short(gridded),
+            short(tail),
+            short(tail_gridded),
+            short(1e4 * jumps),
+            short(1e4 * jumps_gridded)
+        ))
+    };
+    [("5", 1.0, 4.0), ("9", 2.0, 5.0), ("25", 3.0, 6.0)]
+        .into_iter()
+        .filter_map(|(steps, alone, grid)| sentence(steps, alone, grid))
+        .collect()
+}

@@ -288,6 +288,23 @@ impl Spec {
         &self.options
     }
 
+    /// The same with another value of an option of the search or technique.
+    ///
+    /// # Errors
+    /// There is no such option, or it does not take the value.
+    pub fn with(&self, option: &str, value: &str) -> Result<Self, SpecError> {
+        let (first, refinement) = match self.written.split_once('+') {
+            Some((first, refinement)) => (first, format!("+{refinement}")),
+            None => (self.written.as_str(), String::new()),
+        };
+        // Of an option that is given twice the last holds.
+        let first = match first.strip_suffix(')') {
+            Some(open) => format!("{open},{option}={value})"),
+            None => format!("{first}({option}={value})"),
+        };
+        parse(&(first + &refinement))
+    }
+
     /// The refinement with its options.
     pub fn refinement(&self) -> Option<&Options> {
         self.refinement.as_ref()
@@ -395,6 +412,20 @@ mod tests {
                 format!("{before}{name}")
             );
         }
+    }
+
+    #[test]
+    fn an_option_is_replaced_wherever_it_stood() {
+        let with = |text: &str| parse(text).unwrap().with("show", "levels");
+        for text in ["linear", "linear()", "linear(show=wireframe)"] {
+            assert_eq!(with(text), parse("linear(show=levels)"), "{text}");
+        }
+        let refined = with("linear(residual=cross)+full(level=2)");
+        assert_eq!(
+            refined,
+            parse("linear(show=levels,residual=cross)+full(level=2)")
+        );
+        assert!(with("ray-trace").is_err());
     }
 
     #[test]

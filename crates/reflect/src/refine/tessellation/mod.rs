@@ -19,7 +19,7 @@ use encase::{ShaderType, StorageBuffer};
 use super::originals::Originals;
 use super::{Context, Refine};
 use crate::ReflectError;
-use crate::data::Piece;
+use crate::data::{Found, Piece};
 use crate::gpu::Gpu;
 use crate::points::Efforts;
 use crate::recorder::Recorder;
@@ -83,13 +83,17 @@ pub(crate) struct Leaf {
     pub piece: Piece,
     /// World-space corners.
     pub corners: [glam::Vec3; 3],
-    /// All corners are reflected: it is drawn.
+    /// It is drawn: all corners are reflected or, with `hidden=extend`, one is and none failed.
     pub drawn: bool,
 }
 
 /// A refinement by a [`Rule`].
 pub(crate) struct Tessellation {
     rule: Rule,
+    /// `hidden=extend`.
+    extends: bool,
+    /// `start=previous`.
+    starts_warm: bool,
     plan: Plan,
     originals: Originals,
     passes: Passes,
@@ -116,8 +120,11 @@ impl Tessellation {
         let plan = Plan::new(context.stage.world.corners / 3, rule.level, binding);
         let originals = Originals::new(context);
         let passes = Passes::new(context, rule, plan, &originals)?;
+        let options = context.search_options;
         Ok(Self {
             rule,
+            extends: options.is("hidden", "extend"),
+            starts_warm: options.is("start", "previous"),
             plan,
             originals,
             passes,
@@ -161,13 +168,20 @@ impl Tessellation {
                 each(Leaf {
                     piece,
                     corners: corners.map(|(position, _)| position),
-                    drawn: corners
-                        .iter()
-                        .all(|(_, state)| *state == crate::data::Found::FOUND),
+                    drawn: self.is_drawn(corners.map(|(_, state)| state)),
                 });
             }
         }
         gpu.queue.write_buffer(&self.passes.totals, 0, &totals);
+    }
+
+    /// Twin of `usable` in `virtual.wesl`.
+    fn is_drawn(&self, states: [u32; 3]) -> bool {
+        if self.extends {
+            states.contains(&Found::FOUND) && !states.contains(&Found::FAILED)
+        } else {
+            states.iter().all(|state| *state == Found::FOUND)
+        }
     }
 
     fn totals(&self, gpu: &Gpu) -> Totals {
@@ -230,9 +244,17 @@ impl Refine for Tessellation {
         }
     }
 
+    fn notes(&self) -> Vec<String> {
+        let cold = self.starts_warm && self.plan.level > 0;
+        let note = "start=previous holds for the scene's vertices: the new points of a frame have \
+                    no predecessors, and start where the search starts without a previous frame";
+        cold.then(|| note.to_owned()).into_iter().collect()
+    }
+
     fn t_junctions(&self, gpu: &Gpu, stage: &Stage, search: &dyn Search) -> Option<u64> {
         // Where all are split alike there is none.
-        if self.rule.threshold.is_none() || self.plan.level == 0 {
+        let splits_all = self.rule.threshold.is_none_or(|threshold| threshold <= 0.0);
+        if splits_all || self.plan.level == 0 {
             return Some(0);
         }
         let objects = junctions::objects(&stage.world.scene);

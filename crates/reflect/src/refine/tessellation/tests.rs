@@ -75,12 +75,16 @@ fn output(gpu: &Gpu, scene: &Scene, technique: &str) -> Output {
     prepared.render().expect("renders")
 }
 
-fn same(a: &Output, b: &Output) -> bool {
+fn same_picture(a: &Output, b: &Output) -> bool {
     let layers = |output: &Output| {
         let reflected = output.frame.reflected.clone().expect("all layers");
         (output.frame.color.clone(), reflected.position, reflected.id)
     };
     layers(a) == layers(b)
+}
+
+fn same(a: &Output, b: &Output) -> bool {
+    same_picture(a, b)
         && (a.searched, &a.triangles) == (b.searched, &b.triangles)
         && a.work == b.work
 }
@@ -214,6 +218,38 @@ fn only_what_is_nowhere_reflected_stops_early() {
         .iter()
         .map(|leaf| 0.25_f64.powi(leaf.piece.level as i32));
     assert_eq!(area.sum::<f64>(), 2.0, "the pieces fill both triangles");
+}
+
+#[test]
+fn a_previous_frame_helps_the_scenes_own_vertices_alone() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let scene = scene("sphere-square");
+    let spec = parse("linear(start=previous)+full(level=1)").expect("a technique");
+    let mut prepared = prepare(&gpu, &spec, &scene, SIZE).expect("fits the device");
+    let [first, second] = [(); 2].map(|()| prepared.render().expect("renders"));
+    assert!(same_picture(&first, &second));
+    // Four vertices of ten then take one step each.
+    assert!(second.work.steps < 0.8 * first.work.steps);
+    assert!(second.work.steps > 2.0);
+    assert!(second.notes[0].contains("start=previous"));
+    assert_eq!(output(&gpu, &scene, "linear+full(level=1)").notes.len(), 0);
+}
+
+#[test]
+fn triangles_with_hidden_corners_count_where_those_are_extended() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    // Objects touch the mirror: triangles reach beyond the tangent planes under them.
+    let scene = scene("sphere-touching");
+    let [dropped, extended] = ["linear", "linear(hidden=extend)"].map(|search| {
+        let technique = format!("{search}+adaptive(level=3,threshold=0.0003)");
+        let made = Tessellated::new(&gpu, &scene, &technique, SIZE);
+        let (search, stage) = (made.searched.search.as_ref(), &made.searched.stage);
+        let junctions = made.tessellation.t_junctions(&gpu, stage, search);
+        assert!(junctions.is_some_and(|count| count > 0), "{technique}");
+        let leaves = made.leaves(&gpu, 0);
+        leaves.iter().filter(|leaf| leaf.drawn).count()
+    });
+    assert!(dropped < extended, "{dropped} {extended}");
 }
 
 #[test]

@@ -4,7 +4,7 @@
 //! unresolved). The mirror's back and pixels whose ray goes below the surface are none.
 
 use catoptric_frame::{Frame, Image, Reflected, Status};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 use crate::MetricsError;
 
@@ -127,9 +127,22 @@ impl<'frames> Layers<'frames> {
         let mirror_point = self.mirror_point.pixels()[index].as_dvec3();
         let [a, b] = [self.reference, self.test]
             .map(|layer| layer.position.pixels()[index].as_dvec3() - mirror_point);
-        let degenerate = a.length_squared() * b.length_squared() == 0.0;
-        let angle = a.cross(b).length().atan2(a.dot(b)).to_degrees();
-        Some(if degenerate { f64::NAN } else { angle })
+        Some(angle_deg(a, b))
+    }
+
+    /// From the reference's mirror point to what it shows there.
+    pub fn hit(&self, index: usize) -> DVec3 {
+        let hit = self.reference.position.pixels()[index].as_dvec3();
+        hit - self.mirror_point.pixels()[index].as_dvec3()
+    }
+
+    /// How the reference's hit moves from a pixel to another; `None` unless both are mirror pixels
+    /// that show the same object.
+    pub fn step(&self, from: usize, to: usize) -> Option<DVec3> {
+        let ids = self.reference.id.pixels();
+        let same = *self.mask.pixels().get(to)? && ids[from] != 0 && ids[from] == ids[to];
+        let hits = self.reference.position.pixels();
+        same.then(|| hits[to].as_dvec3() - hits[from].as_dvec3())
     }
 
     /// A mirror pixel next to which (8 neighbours) a mirror pixel has another id in the reference.
@@ -139,6 +152,13 @@ impl<'frames> Layers<'frames> {
             .flatten()
             .any(|other| self.mask.pixels()[other] && ids[other] != ids[index])
     }
+}
+
+/// Angle between two directions of any length, degrees; NaN if one of them has none.
+pub(crate) fn angle_deg(a: DVec3, b: DVec3) -> f64 {
+    let degenerate = a.length_squared() * b.length_squared() == 0.0;
+    let angle = a.cross(b).length().atan2(a.dot(b)).to_degrees();
+    if degenerate { f64::NAN } else { angle }
 }
 
 pub(crate) fn is_reflecting(status: Status) -> bool {

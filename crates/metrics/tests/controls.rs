@@ -4,7 +4,7 @@
 use catoptric_frame::{Frame, Image, Name, Primary, Reflected, Status};
 use catoptric_metrics::{
     CompareOptions, Comparison, CoverageClass, MapKind, MetricsError, compare, compare_color,
-    compare_with, error_map,
+    compare_with, error_map, pixel_angle_deg,
 };
 use glam::Vec3;
 
@@ -74,6 +74,32 @@ fn scene(shift: i32) -> Frame {
             mirror: true,
         }],
     }
+}
+
+#[test]
+fn an_answer_in_whole_pixels_is_off_by_the_places_in_a_pixel() {
+    // Hits a unit behind the mirror point, moving a tenth of a unit a pixel beyond the point's own
+    // tenth: with mirror points that stand still a place (x, y) in the pixel is seen from the
+    // centre at atan(|(x, y)| / 10) to the side, the hit at the centre being straight behind.
+    let mut still = frame();
+    for y in 0..SIZE[1] {
+        for x in 0..SIZE[0] {
+            let step = Vec3::new(x as f32, y as f32, 0.0) / 10.0;
+            *layers(&mut still).position.at_mut(x, y) = step - 100.0 * Vec3::Z;
+        }
+    }
+    let found = pixel_angle_deg(&still).unwrap().unwrap();
+    let angle = |x: f64, y: f64| (x.hypot(y) / 1000.0).to_degrees();
+    // Half the places of a 4 × 4 grid: 2 near, 4 between, 2 far.
+    let expected = angle(0.125, 0.375);
+    assert!((found.p50 / expected - 1.0).abs() < 1e-4, "{found:?}");
+    assert!(
+        (found.max / angle(0.375, 0.375) - 1.0).abs() < 1e-4,
+        "{found:?}"
+    );
+    let mut nothing = frame();
+    cut(&mut nothing, 0..SIZE[0], 0..SIZE[1]);
+    assert_eq!(pixel_angle_deg(&nothing), Ok(None));
 }
 
 fn layers(frame: &mut Frame) -> &mut Reflected {

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use catoptric_frame::{Frame, Status as Pixel, TrueVertex};
-use catoptric_metrics::{CompareOptions, Comparison, Timing, VertexReport};
+use catoptric_metrics::{CompareOptions, Comparison, Summary, Timing, VertexReport};
 use catoptric_reference::{NotAvailable, RenderOptions, Tracer, Truth as Bounces, true_vertices};
 use catoptric_reflect::{Gpu, Output, Prepared, ReflectError, Spec, Support};
 use catoptric_scene::{LoadOptions, Scene, SceneError, builtin};
@@ -68,6 +68,8 @@ pub struct Truth {
     pub full: Frame,
     /// Exact reflection points, by mirror, object and vertex.
     pub vertices: Result<Vec<TrueVertex>, NotAvailable>,
+    /// What answers in whole pixels are off by.
+    pub pixel_angle: Option<Summary>,
 }
 
 /// Traces both truths and finds the exact reflection points.
@@ -76,10 +78,12 @@ pub fn trace_reference(scene: &Scene, bounces: u32) -> anyhow::Result<Truth> {
     let first = tracer.render(&RenderOptions::new(size(scene), Bounces::FirstBounce));
     let full = tracer.render(&RenderOptions::new(size(scene), Bounces::Full { bounces }));
     let vertices = true_vertices(scene, &scene.camera.view(size(scene)));
+    let pixel_angle = catoptric_metrics::pixel_angle_deg(&first)?;
     Ok(Truth {
         first,
         full,
         vertices,
+        pixel_angle,
     })
 }
 
@@ -136,6 +140,7 @@ pub struct Compared {
     first: Comparison,
     full: Comparison,
     vertices: Option<Result<VertexReport, String>>,
+    pixel_angle: Option<Summary>,
 }
 
 /// Compares a technique's picture and reflection points with the truth.
@@ -164,6 +169,7 @@ pub fn compare(scene: &Scene, truth: &Truth, output: &Output) -> Result<Compared
         first,
         full,
         vertices: vertices.transpose().map_err(failed)?,
+        pixel_angle: truth.pixel_angle,
     })
 }
 
@@ -228,6 +234,7 @@ pub fn record(
     row.mismatch = mismatch;
     row.angular_error_deg = angular_error_deg;
     row.edge_offset_px = edge_offset_px;
+    row.pixel_angle_deg = compared.pixel_angle;
     row.color = color;
     row.non_finite = Some(non_finite);
     row.regions = Some(regions);

@@ -48,6 +48,9 @@ pub struct Record {
     pub angular_error_deg: Option<Summary>,
     /// Distance from the true edges of reflected objects to the nearest shown, pixels.
     pub edge_offset_px: Option<Summary>,
+    /// Angle between what a mirror pixel's centre and the rest of the pixel truly show, degrees:
+    /// what an answer in whole pixels is off by.
+    pub pixel_angle_deg: Option<Summary>,
     /// Colour errors on the mirror mask.
     pub color: Option<ColorError>,
     /// Reflection points against the exact ones.
@@ -194,6 +197,7 @@ impl Record {
             object_agreement: None,
             angular_error_deg: None,
             edge_offset_px: None,
+            pixel_angle_deg: None,
             color: None,
             vertices: None,
             triangles: None,

@@ -70,6 +70,7 @@ pub fn measured(scene: &str, technique: &str) -> Record {
         object_agreement: Some(0.981),
         angular_error_deg: Some(SUMMARY),
         edge_offset_px: Some(SUMMARY),
+        pixel_angle_deg: Some(SUMMARY),
         color: Some(color),
         vertices: Some(VertexReport {
             searched: 100,

@@ -12,11 +12,14 @@ use glam::Vec3;
 use support::{catoptric, code, gpu_or_skip, stderr};
 
 /// Scene and technique of each golden; together they show every technique, mirrors of several
-/// shapes, several mirrors, and both depth modes.
+/// shapes, several mirrors, both depth modes, and both ways of
+/// splitting triangles.
 const GOLDENS: &[(&str, &str)] = &[
     ("spheres", "linear"),
     ("bowl", "linear(residual=cross,neighbours=8,depth=virtual)"),
     ("sphere-table", "linear(gbuffer=mesh,under=dark)"),
+    ("sphere-square", "linear+full(level=2)"),
+    ("sphere-table", "linear+adaptive(level=3)"),
     ("planar", "planar"),
     ("ellipsoid", "ray-trace"),
     ("ellipsoid", "environment-map(size=64)"),

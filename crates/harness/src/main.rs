@@ -33,6 +33,8 @@ mod table;
 
 use std::process::ExitCode;
 
+use catoptric_reflect::Gpu;
+use catoptric_scene::Scene;
 use clap::Parser;
 
 use crate::cli::{Cli, Command};
@@ -74,6 +76,8 @@ fn run(Cli { command, common }: Cli) -> anyhow::Result<Outcome> {
 
 /// What one scene gave: its rows in the order of the techniques, and what they were made from.
 struct Measured<'a, 'g> {
+    gpu: &'g Gpu,
+    scene: &'a Scene,
     truth: &'a Truth,
     rendered: &'a [Result<Rendered<'g>, Blank>],
     rows: &'a [Record],
@@ -154,6 +158,8 @@ fn measure(
                 setup.progress.step();
             }
             let measured = Measured {
+                gpu: &setup.gpu,
+                scene,
                 truth: &truth,
                 rendered: &rendered,
                 rows: &rows[first..],

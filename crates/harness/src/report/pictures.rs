@@ -2,16 +2,19 @@
 
 use std::path::Path;
 
-use anyhow::Context;
+use anyhow::{Context, anyhow};
 use catoptric_frame::png::srgb_from_linear;
 use catoptric_frame::{Frame, Image, write_png, write_png_rgb8};
 use catoptric_metrics::{
     Colormap, CoverageClass, MapKind, color_bar, colorize, colorize_coverage, error_map,
 };
+use catoptric_reflect::Gpu;
+use catoptric_scene::Scene;
 use glam::Vec3;
 
 use crate::Measured;
 use crate::record::Record;
+use crate::{pipeline, setup};
 
 /// Folder of all pictures, inside the report's.
 pub const FOLDER: &str = "pictures";
@@ -45,6 +48,8 @@ pub struct Names {
     pub angle: String,
     /// Missing, extra, wrong.
     pub coverage: String,
+    /// The virtual triangles by how often each was split, where a refinement splits any.
+    pub levels: Option<String>,
 }
 
 /// Names of a row's pictures. One folder a scene and size, so that a sweep over sizes keeps all.
@@ -52,7 +57,9 @@ pub fn names(row: &Record) -> Names {
     let [width, height] = row.resolution;
     let folder = format!("{FOLDER}/{}-{width}x{height}", slug(&row.scene));
     let technique = slug(&row.technique);
+    let levels = row.triangles.as_ref().map(|all| all.by_level.len());
     Names {
+        levels: (levels > Some(1)).then(|| format!("{folder}/{technique}.levels.png")),
         reference: format!("{folder}/reference.png"),
         full: format!("{folder}/reference-full.png"),
         technique: format!("{folder}/{technique}.png"),
@@ -96,8 +103,25 @@ pub fn write(
         let truth = &measured.truth.first;
         write_png_rgb8(&angle_map(truth, frame)?, at(&names.angle))?;
         write_png_rgb8(&coverage_map(truth, frame)?, at(&names.coverage))?;
+        if let Some(levels) = &names.levels {
+            let geometry = geometry(measured.gpu, measured.scene, &row.technique, "levels")?;
+            write_png(&geometry, at(levels))?;
+        }
     }
     Ok(())
+}
+
+/// The virtual geometry itself, as the option `show` of every search says: `wireframe`, `levels`.
+pub fn geometry(
+    gpu: &Gpu,
+    scene: &Scene,
+    technique: &str,
+    show: &str,
+) -> anyhow::Result<Image<Vec3>> {
+    let spec = setup::parse(technique)?.with("show", show)?;
+    let rendered = pipeline::render(gpu, &spec, scene);
+    let rendered = rendered.map_err(|(_, reason)| anyhow!("{spec} on {}: {reason}", scene.name))?;
+    Ok(rendered.output.frame.color)
 }
 
 /// Angular error on the logarithmic scale, on a pale picture where there is none.

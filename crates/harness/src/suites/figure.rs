@@ -85,6 +85,17 @@ pub struct Quantity {
     pub path: &'static str,
     /// How it is laid out.
     pub scale: Scale,
+    /// What it is to be compared with at every place.
+    pub guide: Option<Guide>,
+}
+
+/// Another number of the same rows, drawn as a series of its own.
+#[derive(Clone, Copy, Debug)]
+pub struct Guide {
+    /// In the legend.
+    pub label: &'static str,
+    /// Where it stands in the record.
+    pub path: &'static str,
 }
 
 impl Quantity {
@@ -94,6 +105,7 @@ impl Quantity {
             label,
             path,
             scale: Scale::Log,
+            guide: None,
         }
     }
 
@@ -103,6 +115,15 @@ impl Quantity {
             label,
             path,
             scale: Scale::Linear,
+            guide: None,
+        }
+    }
+
+    /// With a number beside it.
+    pub fn beside(self, guide: Guide) -> Self {
+        Self {
+            guide: Some(guide),
+            ..self
         }
     }
 }

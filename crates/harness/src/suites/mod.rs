@@ -43,7 +43,7 @@ use crate::report::pictures;
 use crate::setup::Setup;
 use crate::suggest::suggest;
 
-pub use figure::{Ask, Figure, Point, Quantity, Quote, Series};
+pub use figure::{Ask, Figure, Guide, Point, Quantity, Quote, Series};
 pub use results::Results;
 
 /// A named set of figures.
@@ -200,7 +200,10 @@ mod tests {
                 let what = format!("{}, {}", suite.name, figure.anchor);
                 assert!(!figure.series.is_empty(), "{what}");
                 for quantity in &figure.quantities {
-                    assert!(is_metric(quantity.path), "{what}: {}", quantity.path);
+                    let guide = quantity.guide.map(|guide| guide.path);
+                    for path in [quantity.path].into_iter().chain(guide) {
+                        assert!(is_metric(path), "{what}: {path}");
+                    }
                 }
                 for ask in figure.quotes.iter().filter_map(|quote| quote.ours) {
                     assert!(is_metric(ask.path), "{what}: {}", ask.path);

@@ -15,7 +15,7 @@ use crate::record::{Record, Status};
 use crate::report::{page, pictures, words};
 use crate::table::Table;
 
-use super::{Figure, Picture, Quote, Results, Suite};
+use super::{Figure, Picture, Quantity, Quote, Results, Suite};
 
 /// Folder of the plots and tables, inside the page's.
 const FOLDER: &str = "figures";
@@ -171,7 +171,7 @@ fn show<'p>(
 
 /// The figure's plots that have something to show.
 fn plots(figure: &Figure, results: &Results<'_>) -> Vec<Plot> {
-    let plot = |quantity: &super::Quantity| {
+    let plot = |quantity: &Quantity| {
         let series = figure.series.iter().map(|series| {
             let marks = series.points.iter().filter_map(|point| {
                 let y = results.value(point, quantity.path)?;
@@ -194,12 +194,36 @@ fn plots(figure: &Figure, results: &Results<'_>) -> Vec<Plot> {
                 label: quantity.label.to_owned(),
                 scale: quantity.scale.clone(),
             },
-            series: series.collect(),
+            series: series.chain(guide(figure, quantity, results)).collect(),
             height: TALL,
             joined: !matches!(figure.axis.scale, Scale::Names(_)),
         }
     };
     figure.quantities.iter().map(plot).collect()
+}
+
+/// The guide of a quantity at every place where a point has it.
+fn guide(figure: &Figure, quantity: &Quantity, results: &Results<'_>) -> Option<Marks> {
+    let guide = quantity.guide?;
+    let mut points: Vec<Mark> = Vec::new();
+    for point in figure.series.iter().flat_map(|series| &series.points) {
+        let Some(y) = results.value(point, guide.path) else {
+            continue;
+        };
+        if points.iter().all(|mark| mark.x != point.x) {
+            points.push(Mark {
+                x: point.x,
+                y,
+                name: String::new(),
+                label: format!("{}, {}: {}", guide.label, point.scene, significant(y)),
+            });
+        }
+    }
+    points.sort_by(|a, b| a.x.total_cmp(&b.x));
+    Some(Marks {
+        label: guide.label.to_owned(),
+        points,
+    })
 }
 
 /// Every point with all the figure's quantities.

@@ -9,9 +9,22 @@ use super::{Figure, Point};
 
 /// All points of all figures without doubles, by scene and size in order of appearance. Each
 /// scene's part of the `timing` seconds is that of its techniques among all.
+///
+/// Only so many techniques are timed in turn: of a figure first the first points of all its series,
+/// then the second ones, so that the same drift meets those that a figure compares.
 pub fn wanted(figures: &[Figure], timing: f64) -> Vec<Wanted> {
     let mut jobs: Vec<Wanted> = Vec::new();
-    for point in points(figures) {
+    let ranked = figures.iter().flat_map(|figure| {
+        let longest = figure.series.iter().map(|series| series.points.len()).max();
+        let rank = |rank| {
+            figure
+                .series
+                .iter()
+                .filter_map(move |series| series.points.get(rank))
+        };
+        (0..longest.unwrap_or(0)).flat_map(rank)
+    });
+    for point in ranked {
         let job = jobs
             .iter_mut()
             .find(|job| job.scene == point.scene && job.resolution == point.resolution);
@@ -100,6 +113,23 @@ mod tests {
         assert_eq!(names, ["bowl", "planar", "bowl"]);
         assert_eq!(jobs[0].techniques, ["linear"]);
         assert_eq!(jobs[0].timing, Duration::from_secs(10));
+    }
+
+    #[test]
+    fn what_stands_at_one_place_is_measured_one_after_another() {
+        let point = |x: f64, technique: &str| Point::new(x, "bowl", technique);
+        let mut both = figure(vec![point(0.0, "linear"), point(1.0, "linear+full")]);
+        both.series.push(Series {
+            label: "other".to_owned(),
+            points: vec![
+                point(0.0, "planar"),
+                point(1.0, "ray-trace"),
+                point(2.0, "newton"),
+            ],
+        });
+        let jobs = wanted(&[both], 1.0);
+        let order = ["linear", "planar", "linear+full", "ray-trace", "newton"];
+        assert_eq!(jobs[0].techniques, order);
     }
 
     #[test]

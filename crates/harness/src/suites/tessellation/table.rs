@@ -1,0 +1,295 @@
+//! CESCG's figures: a scene of coarse and of fine models.
+
+use crate::plot::Axis;
+use crate::report::words::{count, short};
+
+use super::super::{Ask, Figure, Point, Quantity, Quote, Results};
+use super::{
+    ADAPTIVE, AGREEMENT, ANGLE, BY_EYE, CRACK_PIXELS, DRAWN, EDGES, FRAME_MS, FULL, NONE, PAPERS,
+    SEARCHED, TABLE, THRESHOLD, adaptive, full, named, quantities, series, spared, three_modes,
+    verdict,
+};
+
+/// The size at which full tessellation to level 4 (2.5 million triangles) fits the suite's time.
+const SIZE: [u32; 2] = [320, 240];
+
+/// Level limits of Fig. 9.
+const LEVELS: u32 = 4;
+
+const SEARCH: &str = "linear search";
+
+/// A scene and the size in which it is measured.
+pub struct Place {
+    scene: String,
+    size: Option<[u32; 2]>,
+}
+
+impl Place {
+    /// The user's scene in its own size, or the table in the size for it.
+    pub fn of(users: Option<&str>) -> Self {
+        Self {
+            scene: users.unwrap_or(TABLE).to_owned(),
+            size: users.is_none().then_some(SIZE),
+        }
+    }
+
+    fn point(&self, x: f64, technique: impl Into<String>) -> Point {
+        Point {
+            resolution: self.size,
+            ..Point::new(x, self.scene.clone(), technique)
+        }
+    }
+
+    /// The size, where it is not the scene's own.
+    fn words(&self) -> String {
+        self.size.map_or_else(String::new, |[width, height]| {
+            format!(" Measured at {width} × {height} pixels.")
+        })
+    }
+}
+
+/// CESCG Fig. 7.
+pub fn coarse_and_fine(place: &Place) -> Figure {
+    let techniques = [
+        "linear".to_owned(),
+        adaptive(LEVELS, THRESHOLD),
+        full(LEVELS),
+    ];
+    let points = (0..).zip(techniques);
+    let points = points.map(|(x, technique)| place.point(f64::from(x), technique).shown());
+    Figure {
+        anchor: "table",
+        title: "A coarse cloth and candlestick beside a fine teapot".to_owned(),
+        after: "Szabo CESCG, Fig. 7",
+        question: format!(
+            "Adaptive tessellation should split the coarse models and leave the fine one alone.{}",
+            place.words()
+        ),
+        axis: named("tessellation", &[NONE, ADAPTIVE, "full, 4 levels"]),
+        series: vec![series(SEARCH, points)],
+        quantities: quantities([
+            Quantity::log("time of a frame (ms)", FRAME_MS),
+            Quantity::log("triangles drawn", DRAWN),
+        ]),
+        quotes: vec![
+            Quote {
+                what: "without tessellation",
+                theirs: "“visibly wrong”",
+                on: BY_EYE,
+                ours: Some(right(SEARCH, 0.0)),
+            },
+            Quote {
+                what: "adaptive",
+                theirs: "“as if … fully tessellated”",
+                on: BY_EYE,
+                ours: Some(right(SEARCH, 1.0)),
+            },
+        ],
+        analysis: table_analysis,
+    }
+}
+
+/// The share of mirror pixels that show the right object.
+const fn right(series: &'static str, x: f64) -> Ask {
+    Ask {
+        series,
+        x,
+        path: AGREEMENT,
+        unit: "of the mirror pixels right",
+    }
+}
+
+fn table_analysis(results: &Results<'_>) -> Vec<String> {
+    let at = |x, path| results.at(SEARCH, x, path);
+    let mut sentences = Vec::new();
+    if let (Some(plain), Some(some), Some(all)) =
+        (at(0.0, AGREEMENT), at(1.0, AGREEMENT), at(2.0, AGREEMENT))
+    {
+        sentences.push(format!(
+            "The right object is shown at {} % of the mirror pixels without tessellation, {} % with adaptive \
+             and {} % with full tessellation: that adaptive shows what full does {}, if one pixel in a hundred \
+             is what can be told.",
+            short(100.0 * plain),
+            short(100.0 * some),
+            short(100.0 * all),
+            verdict(all - some < 0.01)
+        ));
+    }
+    let points = results.series().iter().flat_map(|series| &series.points);
+    let rows: Vec<_> = points.filter_map(|point| results.row(point)).collect();
+    if let [_, adaptive, _] = rows[..]
+        && let Some(triangles) = &adaptive.triangles
+    {
+        let whole = triangles.by_level[0] as f64 / triangles.input as f64;
+        sentences.push(format!(
+            "Of the scene's {} triangles adaptive leaves {} % whole: that fine models are left alone {}.",
+            count(triangles.input),
+            short(100.0 * whole),
+            verdict(whole > 0.9)
+        ));
+    }
+    if let (Some(some), Some(all)) = (at(1.0, FRAME_MS), at(2.0, FRAME_MS)) {
+        sentences.push(format!(
+            "Full takes {} times adaptive's time.",
+            short(all / some)
+        ));
+    }
+    sentences
+}
+
+/// CESCG Fig. 8, from none to full.
+const THRESHOLDS: [&str; 8] = ["1", "0.1", "0.03", "0.01", "0.003", "0.001", "0.0001", "0"];
+
+/// CESCG Fig. 8.
+pub fn thresholds(place: &Place) -> Figure {
+    let points = (0..).zip(THRESHOLDS).map(|(x, threshold)| {
+        let technique = match threshold {
+            "0" => full(LEVELS),
+            _ => adaptive(LEVELS, threshold),
+        };
+        let point = place.point(f64::from(x), technique);
+        match threshold {
+            "1" | "0.1" | "0.01" | "0.001" | "0" => point.shown(),
+            _ => point,
+        }
+    });
+    Figure {
+        anchor: "thresholds",
+        title: "From no tessellation to full, by the threshold".to_owned(),
+        after: "Szabo CESCG, Fig. 8",
+        question: format!(
+            "The threshold decides between accuracy and time; up to {LEVELS} levels. At 0 every triangle is \
+             split: full tessellation.{}",
+            place.words()
+        ),
+        axis: named("threshold", &THRESHOLDS),
+        series: vec![series(ADAPTIVE, points)],
+        quantities: quantities([
+            Quantity::log("time of a frame (ms)", FRAME_MS),
+            Quantity::log("triangles drawn", DRAWN),
+            Quantity::linear("pixels in cracks", CRACK_PIXELS),
+        ]),
+        quotes: vec![
+            Quote {
+                what: "threshold of 0.1 or larger",
+                theirs: "too high",
+                on: BY_EYE,
+                ours: Some(right(ADAPTIVE, 1.0)),
+            },
+            Quote {
+                what: "threshold of 0.01, the finer end of what is recommended",
+                theirs: "“perfectly acceptable”",
+                on: BY_EYE,
+                ours: Some(right(ADAPTIVE, 3.0)),
+            },
+            Quote {
+                what: "threshold near 0",
+                theirs: "no longer interactive",
+                on: PAPERS,
+                ours: Some(Ask {
+                    series: ADAPTIVE,
+                    x: 7.0,
+                    path: FRAME_MS,
+                    unit: "ms",
+                }),
+            },
+        ],
+        analysis: threshold_analysis,
+    }
+}
+
+fn threshold_analysis(results: &Results<'_>) -> Vec<String> {
+    let at = |threshold: &str, path: &str| {
+        let x = THRESHOLDS.iter().position(|other| *other == threshold)? as f64;
+        let curve = results.curve(ADAPTIVE, path);
+        let found = curve.iter().find(|(other, _)| *other == x);
+        found.map(|(_, value)| *value)
+    };
+    let mut sentences = Vec::new();
+    let right = |threshold| at(threshold, AGREEMENT);
+    if let (Some(none), Some(coarse), Some(middle), Some(fine)) =
+        (right("1"), right("0.1"), right("0.01"), right("0"))
+    {
+        let lost = |share: f64| 100.0 * (fine - share);
+        sentences.push(format!(
+            "Full tessellation shows the right object at {} % of the mirror pixels, none at {} %. A threshold \
+             of 0.1 loses {} % against full: that it is too high {}. One of 0.01 loses {} %: that it is \
+             perfectly acceptable {}, if one pixel in a hundred is what can be told.",
+            short(100.0 * fine),
+            short(100.0 * none),
+            short(lost(coarse)),
+            verdict(lost(coarse) >= 1.0),
+            short(lost(middle)),
+            verdict(lost(middle) < 1.0)
+        ));
+    }
+    if let (Some(some), Some(all)) = (at("0.01", ANGLE), at("0", ANGLE)) {
+        sentences.push(format!(
+            "The median angular error is {}° at 0.01 and {}° at 0.",
+            short(some),
+            short(all)
+        ));
+    }
+    if let (Some(some), Some(all)) = (at("0.01", FRAME_MS), at("0", FRAME_MS)) {
+        sentences.push(format!(
+            "A threshold of 0 takes {} times the time of 0.01.",
+            short(all / some)
+        ));
+    }
+    sentences
+}
+
+/// CESCG Fig. 9.
+pub fn counts(place: &Place) -> Figure {
+    Figure {
+        anchor: "counts",
+        title: "Vertices by level and mode".to_owned(),
+        after: "Szabo CESCG, Fig. 9",
+        question: format!(
+            "How many triangles (three vertices each, as the papers draw them) and how many searches a level \
+             limit leads to; adaptive at a threshold of {THRESHOLD}.{}",
+            place.words()
+        ),
+        axis: Axis::linear("level limit"),
+        series: three_modes(LEVELS, |x, technique| place.point(x, technique)),
+        quantities: quantities([
+            Quantity::log("triangles drawn", DRAWN),
+            Quantity::log("searches", SEARCHED),
+            Quantity::log("time of a frame (ms)", FRAME_MS),
+        ]),
+        quotes: vec![Quote {
+            what: "adaptive against full",
+            theirs: "fewer vertices, fewer searches",
+            on: "a diagram",
+            ours: Some(Ask {
+                series: ADAPTIVE,
+                x: LEVELS as f64,
+                path: DRAWN,
+                unit: "triangles at the highest limit",
+            }),
+        }],
+        analysis: count_analysis,
+    }
+}
+
+fn count_analysis(results: &Results<'_>) -> Vec<String> {
+    let mut sentences: Vec<String> = spared(results).into_iter().collect();
+    let last = f64::from(LEVELS);
+    let at = |series, path| results.at(series, last, path);
+    if let (Some(all), Some(some)) = (at(FULL, SEARCHED), at(ADAPTIVE, SEARCHED)) {
+        sentences.push(format!(
+            "Full searches {} points, adaptive {}: that adaptive needs fewer {}.",
+            count(all as u64),
+            count(some as u64),
+            verdict(some < all)
+        ));
+    }
+    if let (Some(all), Some(some)) = (at(FULL, EDGES), at(ADAPTIVE, EDGES)) {
+        sentences.push(format!(
+            "Edges then lie {} px on average from the truth with full and {} px with adaptive tessellation.",
+            short(all),
+            short(some)
+        ));
+    }
+    sentences
+}

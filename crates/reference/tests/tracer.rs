@@ -150,6 +150,7 @@ fn mirrors_are_hidden_by_objects_and_not_seen_by_reflected_rays() {
         name: "behind".into(),
         shape: second,
         tessellation: 8,
+        cubemaps: Vec::new(),
     });
     let frame = Tracer::new(&scene)
         .unwrap()
@@ -278,6 +279,7 @@ fn backs_are_black() {
         name: "back".into(),
         shape: back,
         tessellation: 8,
+        cubemaps: Vec::new(),
     });
     let frame = Tracer::new(&scene)
         .unwrap()

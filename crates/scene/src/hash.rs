@@ -51,6 +51,13 @@ pub(crate) fn hash(
     for mirror in mirrors {
         hasher.tag("mirror");
         hasher.mirror(mirror);
+        if !mirror.cubemaps.is_empty() {
+            hasher.tag("cubemaps");
+            mirror
+                .cubemaps
+                .iter()
+                .for_each(|center| hasher.vector(*center));
+        }
     }
     hasher
         .0

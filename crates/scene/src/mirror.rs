@@ -13,6 +13,9 @@ pub struct Mirror {
     pub shape: Shape,
     /// Segments around the proxy, half as many rings. Unused for meshes.
     pub tessellation: u32,
+    /// World-space centres of the cube maps that a technique may trace its reflections in, the most
+    /// useful first; mostly empty.
+    pub cubemaps: Vec<DVec3>,
 }
 
 /// A reflecting surface in world space. Each has a reflecting side; the other is opaque black.

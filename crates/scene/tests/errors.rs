@@ -48,6 +48,12 @@ fn messages_name_file_line_and_key() {
         ("why = \"A test.\"", "", 1, &["`why`", "missing"]),
         ("why = \"A test.\"", "why = \"\"", 1, &["`why`"]),
         (
+            "shape = \"sphere\"",
+            "shape = \"sphere\"\ncubemaps = [[0.0, 1.0]]",
+            17,
+            &["`cubemaps`", "3 numbers"],
+        ),
+        (
             "why = \"A test.\"",
             "why = 3",
             1,

@@ -61,6 +61,7 @@ pub fn balls() -> Scene {
             name: "mirror".into(),
             shape,
             tessellation: 64,
+            cubemaps: Vec::new(),
         }],
         motion: None,
         hash: String::new(),

@@ -63,6 +63,7 @@ pub fn scene(camera: Camera, objects: Vec<Object>, mirrors: Vec<Shape>) -> Scene
         name: format!("mirror {index}"),
         shape,
         tessellation: 64,
+        cubemaps: Vec::new(),
     };
     Scene {
         name: "test".into(),

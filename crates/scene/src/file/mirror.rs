@@ -17,6 +17,7 @@ const EXACT: [&str; 6] = ["sphere", "ellipsoid", "plane", "bowl", "torus", "sadd
 pub(super) fn mirror(table: &Table<'_>, origin: &Origin<'_>) -> Result<Mirror, SceneError> {
     let name = name(table)?;
     let tessellation = table.count("tessellation", 4..=2048)?.unwrap_or(128);
+    let cubemaps = table.rows::<3>("cubemaps")?.unwrap_or_default();
     let mesh = table.string("mesh")?;
     let shape = table.string("shape")?;
     let shape = match (mesh, shape) {
@@ -54,6 +55,7 @@ pub(super) fn mirror(table: &Table<'_>, origin: &Origin<'_>) -> Result<Mirror, S
         name,
         shape,
         tessellation,
+        cubemaps: cubemaps.into_iter().map(DVec3::from_array).collect(),
     })
 }
 

@@ -101,6 +101,7 @@ mod tests {
             name: "m".to_owned(),
             shape,
             tessellation: 128,
+            cubemaps: Vec::new(),
         }]
     }
 

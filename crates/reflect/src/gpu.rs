@@ -31,6 +31,8 @@ pub struct AdapterInfo {
     pub max_image: u32,
     /// Largest buffer a shader can see, in bytes.
     pub max_storage_binding: u64,
+    /// Least and greatest number of lanes of a subgroup; `None` where shaders know no subgroups.
+    pub subgroups: Option<[u32; 2]>,
 }
 
 /// Which kind of adapter to take where no name is given.
@@ -63,9 +65,13 @@ pub enum GpuError {
     },
 }
 
+/// Features that are used where the adapter has them.
+const WANTED: wgpu::Features = wgpu::Features::TIMESTAMP_QUERY.union(wgpu::Features::SUBGROUP);
+
 fn describe(adapter: &wgpu::Adapter) -> AdapterInfo {
     let info = adapter.get_info();
     let limits = adapter.limits();
+    let subgroups = adapter.features().contains(wgpu::Features::SUBGROUP);
     AdapterInfo {
         name: info.name,
         driver: format!("{} {}", info.driver, info.driver_info)
@@ -79,6 +85,7 @@ fn describe(adapter: &wgpu::Adapter) -> AdapterInfo {
         // Devices are opened with the default limits.
         max_storage_binding: (limits.max_storage_buffer_binding_size)
             .min(wgpu::Limits::default().max_storage_buffer_binding_size),
+        subgroups: subgroups.then_some([info.subgroup_min_size, info.subgroup_max_size]),
     }
 }
 
@@ -109,15 +116,15 @@ pub fn adapters() -> Vec<AdapterInfo> {
     enumerate().iter().map(describe).collect()
 }
 
-/// Asks for a device with the default limits, with time stamps where there are any, and with ray
-/// queries if wanted.
+/// Asks for a device with the default limits, with what it has of [`WANTED`], and with ray queries if
+/// asked for.
 fn request(
     adapter: &wgpu::Adapter,
     ray_queries: bool,
 ) -> Result<(wgpu::Device, wgpu::Queue), wgpu::RequestDeviceError> {
     let mut descriptor = wgpu::DeviceDescriptor {
         label: Some("catoptric"),
-        required_features: adapter.features() & wgpu::Features::TIMESTAMP_QUERY,
+        required_features: adapter.features() & WANTED,
         required_limits: wgpu::Limits::default().using_resolution(adapter.limits()),
         ..Default::default()
     };
@@ -281,6 +288,49 @@ impl Gpu {
         bytes
             .chunks_exact(row as usize)
             .flat_map(|line| line[..width as usize * 16].chunks_exact(16))
+            .map(bytemuck::pod_read_unaligned)
+            .collect()
+    }
+
+    /// One mip level of all layers of a texture of floats created with `COPY_SRC`: by layer, row from
+    /// the top, column, channel.
+    pub(crate) fn read_layers(&self, texture: &wgpu::Texture, level: u32) -> Vec<f32> {
+        let [width, height] =
+            [texture.width(), texture.height()].map(|side| (side >> level).max(1));
+        let layers = texture.depth_or_array_layers();
+        let texels = width as usize * texture.format().components() as usize;
+        let row = (4 * texels as u32).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let staging = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("readback"),
+            size: u64::from(row) * u64::from(height * layers),
+            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+            mapped_at_creation: false,
+        });
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        encoder.copy_texture_to_buffer(
+            wgpu::TexelCopyTextureInfo {
+                mip_level: level,
+                ..texture.as_image_copy()
+            },
+            wgpu::TexelCopyBufferInfo {
+                buffer: &staging,
+                layout: wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(row),
+                    rows_per_image: Some(height),
+                },
+            },
+            wgpu::Extent3d {
+                width,
+                height,
+                depth_or_array_layers: layers,
+            },
+        );
+        self.queue.submit([encoder.finish()]);
+        let bytes = self.mapped(&staging);
+        bytes
+            .chunks_exact(row as usize)
+            .flat_map(|line| line[..4 * texels].chunks_exact(4))
             .map(bytemuck::pod_read_unaligned)
             .collect()
     }

@@ -42,7 +42,7 @@ pub use path::{Visit, path};
 pub use registry::{Family, OptionInfo, TechniqueInfo, Values, list};
 pub use search::reflector_cubemap::walk::{CubemapAnswer, CubemapStep, CubemapWalk};
 pub use spec::{Options, Spec, SpecError, parse};
-pub use technique::{Output, Prepared};
+pub use technique::{DistanceLevel, Output, Prepared};
 pub use timing::{FrameTime, SelfTest};
 
 use catoptric_scene::Scene;

@@ -363,12 +363,18 @@ const RAY_TRACE: &[OptionInfo] = &[
     ),
 ];
 
+const ENVIRONMENT_MAP: &[OptionInfo] = &[words(
+    "placement",
+    &["center", "scene"],
+    "where the map is taken from: the mirror's centre, or the first of its `cubemaps` in the scene file",
+)];
+
 const CUBEMAP_TRACE: &[OptionInfo] = &[
     whole("objects", 2, [1, 8], "cube maps of each mirror"),
     words(
         "placement",
-        &["auto", "random"],
-        "where the maps are taken from: of random candidates those that resolve the most pixels, or just as many as are needed",
+        &["auto", "random", "scene"],
+        "where the maps are taken from: of random candidates those that resolve the most pixels, or just as many as are needed, or the mirror's `cubemaps` in the scene file",
     ),
     words(
         "criterion",
@@ -377,8 +383,8 @@ const CUBEMAP_TRACE: &[OptionInfo] = &[
     ),
     words(
         "accept",
-        &["any", "continuous"],
-        "which sign changes count: any, as published, or after halving the step those where the map is continuous",
+        &["continuous", "any"],
+        "which sign changes count: those where the map is continuous (ours), or any, as published",
     ),
     words(
         "sampling",
@@ -393,7 +399,12 @@ const CUBEMAP_TRACE: &[OptionInfo] = &[
     words(
         "stage",
         &["fragment", "compute"],
-        "one fragment a ray, or 32 lanes a ray that test the cells of a level at once",
+        "one fragment a ray, or 32 lanes a ray that test the cells of a level at once (and thereby each texel once)",
+    ),
+    words(
+        "agree",
+        &["ballot", "memory"],
+        "how the lanes of a ray agree (stage=compute): by the ballots of subgroups, where the adapter has these, or lane by lane in workgroup memory",
     ),
     number(
         "length",
@@ -566,9 +577,9 @@ pub const TECHNIQUES: &[TechniqueInfo] = &[
         what: "one cube map from each mirror's centre, looked up in the reflected direction",
         family: Family::ImageOrder,
         paper: "baseline",
-        options: &[CUBE_MAPS, EVERY],
+        options: &[ENVIRONMENT_MAP, CUBE_MAPS, EVERY],
         maker: Maker::ImageOrder(image_order::environment_map::make),
-        objection: any_scene,
+        objection: image_order::environment_map::objection,
     },
     TechniqueInfo {
         name: "planar",

@@ -134,7 +134,9 @@ pub(crate) mod tests {
         for (program, features) in &programs {
             for on in sets(features) {
                 let module = parsed(program, &on);
-                let capabilities = Capabilities::RAY_QUERY | Capabilities::default();
+                // Subgroups are for adapters that have them, behind this feature alone.
+                let mut capabilities = Capabilities::RAY_QUERY | Capabilities::default();
+                capabilities.set(Capabilities::SUBGROUP, on.contains(&"ballot"));
                 let info = Validator::new(ValidationFlags::all(), capabilities)
                     .validate(&module)
                     .unwrap_or_else(|error| panic!("{program} {on:?}: {error:?}"));

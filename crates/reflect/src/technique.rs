@@ -54,6 +54,22 @@ pub(crate) trait Technique {
     /// Reads back what the last frame drew and counted; it was rendered in
     /// [`Variant::AllLayers`].
     fn output(&self, gpu: &Gpu) -> Output;
+
+    /// The pyramid of the first mirror's cube maps of distance, texels first; `None` for techniques
+    /// that have none.
+    fn distance_levels(&self, _: &Gpu) -> Option<Vec<DistanceLevel>> {
+        None
+    }
+}
+
+/// A level of a pyramid over cube maps of world distance.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DistanceLevel {
+    /// Cells a side of a face.
+    pub side: u32,
+    /// Least and greatest distance in a cell, world units: by map, face (+x −x +y −y +z −z), row,
+    /// column. The background counts as far as the scene's diagonal.
+    pub ranges: Vec<[f32; 2]>,
 }
 
 /// A rendered frame and all that was counted on the way.
@@ -136,6 +152,12 @@ impl<'g> Prepared<'g> {
             self.technique.record(frame, Variant::Color);
         });
         Ok(FrameTime { build_ms, ..time })
+    }
+
+    /// The pyramid over the first mirror's cube maps of distance, from texels to a cell a face; `None`
+    /// where the technique has no such pyramid.
+    pub fn distance_levels(&self) -> Option<Vec<DistanceLevel>> {
+        self.technique.distance_levels(self.gpu)
     }
 
     /// Takes over what moved since the last frame: eye, object vertices, mirrors. Nothing is

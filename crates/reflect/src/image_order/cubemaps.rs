@@ -145,6 +145,11 @@ impl CubeMaps {
         self.wanted.size
     }
 
+    /// World-space centres of the maps that rays are traced in.
+    pub(crate) fn centers(&self) -> &[DVec3] {
+        &self.wanted.centers[..self.wanted.traced]
+    }
+
     /// Maps that rays are traced in.
     pub(crate) fn traced(&self) -> usize {
         self.wanted.traced

@@ -2,6 +2,8 @@
 //! direction (Blinn and Newell 1976). The baseline that all four papers compare with.
 
 use catoptric_frame::Work;
+use catoptric_scene::{Mirror, Scene};
+use glam::DVec3;
 
 use super::cubemaps::{CubeMaps, Wanted, draw_now, maps_layout};
 use super::{ImageOrder, draw_reflections};
@@ -16,10 +18,33 @@ use crate::technique::Variant;
 struct EnvironmentMap {
     /// The maps are drawn anew in every frame.
     every_frame: bool,
+    /// Their centres go with the mirrors.
+    follows: bool,
     color: wgpu::RenderPipeline,
     layers: wgpu::RenderPipeline,
     /// One a mirror.
     maps: Vec<(CubeMaps, wgpu::BindGroup)>,
+}
+
+/// Where a mirror's map is taken from, world space.
+fn center(options: &Options, mirror: &Mirror) -> DVec3 {
+    match options.text("placement") {
+        "scene" => mirror.cubemaps[0],
+        _ => mirror.shape.center(),
+    }
+}
+
+/// Why the places in the scene file do not do.
+pub(crate) fn objection(options: &Options, scene: &Scene) -> Option<String> {
+    let without = scene
+        .mirrors
+        .iter()
+        .find(|mirror| mirror.cubemaps.is_empty());
+    let mirror = without.filter(|_| options.is("placement", "scene"))?;
+    Some(format!(
+        "placement=scene: mirror \"{}\" has no place for a map (key `cubemaps` in the scene file)",
+        mirror.name
+    ))
 }
 
 pub(crate) fn make(
@@ -46,7 +71,7 @@ pub(crate) fn make(
     for mirror in &stage.world.scene.mirrors {
         let wanted = Wanted {
             size: options.whole("size"),
-            centers: vec![mirror.shape.center()],
+            centers: vec![center(options, mirror)],
             traced: 1,
             mirrors: false,
         };
@@ -55,8 +80,10 @@ pub(crate) fn make(
         let own = group(gpu, &own_layout, &map.resources([&colors, &distances]));
         maps.push((map, own));
     }
+    let every_frame = options.is("update", "frame");
     let technique = EnvironmentMap {
-        every_frame: options.is("update", "frame"),
+        every_frame,
+        follows: every_frame && options.is("placement", "center"),
         color: pipeline("color", 1),
         layers: pipeline("layers", 2),
         maps,
@@ -74,9 +101,10 @@ impl EnvironmentMap {
 }
 
 impl ImageOrder for EnvironmentMap {
-    /// The centre goes with its mirror where the map is drawn in every frame.
+    /// A mirror's own centre goes with it where the map is drawn in every frame; a place in the scene
+    /// file stays.
     fn update(&mut self, gpu: &Gpu, stage: &Stage) -> Result<(), ReflectError> {
-        if self.every_frame {
+        if self.follows {
             for ((map, _), mirror) in self.maps.iter_mut().zip(&stage.world.scene.mirrors) {
                 map.set_centers(gpu, stage, &[mirror.shape.center()]);
             }
@@ -110,5 +138,38 @@ impl ImageOrder for EnvironmentMap {
             samples: Some(1.0),
             ..Work::default()
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::spec::parse;
+    use crate::testing::{gpu_or_skip, scene};
+    use crate::{Support, supports};
+
+    #[test]
+    fn a_place_in_the_scene_file_takes_the_centres_place() {
+        let Some(gpu) = gpu_or_skip() else { return };
+        let mut scene = scene("sphere-table");
+        let given = parse("environment-map(size=32,placement=scene)").expect("a technique");
+        let Support::No(reason) = supports(&given, &scene) else {
+            panic!("no place is given")
+        };
+        assert!(reason.contains("`cubemaps`"), "{reason}");
+        let render = |scene: &_, spec: &_| {
+            let mut prepared =
+                crate::prepare(&gpu, spec, scene, [40, 30]).expect("fits the device");
+            prepared.render().expect("renders").frame.color
+        };
+        let own = render(
+            &scene,
+            &parse("environment-map(size=32)").expect("a technique"),
+        );
+        let center = scene.mirrors[0].shape.center();
+        scene.mirrors[0].cubemaps = vec![center];
+        assert_eq!(supports(&given, &scene), Support::Yes);
+        assert_eq!(render(&scene, &given), own);
+        scene.mirrors[0].cubemaps = vec![center + 0.5 * glam::DVec3::X];
+        assert_ne!(render(&scene, &given), own);
     }
 }

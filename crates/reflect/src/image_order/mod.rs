@@ -16,7 +16,7 @@ use crate::recorder::{Begin, Recorder};
 use crate::resources::view;
 use crate::spec::{Options, Spec};
 use crate::stage::Stage;
-use crate::technique::{Built, Output, Technique, Variant};
+use crate::technique::{Built, DistanceLevel, Output, Technique, Variant};
 
 /// A technique of this family that stands ready for one scene and image size.
 pub(crate) trait ImageOrder {
@@ -48,6 +48,16 @@ pub(crate) trait ImageOrder {
     /// Pixel by pixel, what the last frame's rays took; `None` where none are followed step by
     /// step.
     fn traced(&self, _: &Gpu, _: &Stage) -> Option<Traced> {
+        None
+    }
+
+    /// What else the reader of the last frame's numbers should know, in sentences.
+    fn notes(&self, _: &Gpu, _: &Stage) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// See [`Technique::distance_levels`].
+    fn distance_levels(&self, _: &Gpu, _: &Stage) -> Option<Vec<DistanceLevel>> {
         None
     }
 }
@@ -122,8 +132,12 @@ impl Technique for Whole {
             triangles: None,
             t_junctions: None,
             work: self.technique.work(gpu, &self.stage),
-            notes: Vec::new(),
+            notes: self.technique.notes(gpu, &self.stage),
             traced: self.technique.traced(gpu, &self.stage),
         }
+    }
+
+    fn distance_levels(&self, gpu: &Gpu) -> Option<Vec<DistanceLevel>> {
+        self.technique.distance_levels(gpu, &self.stage)
     }
 }

@@ -1,5 +1,6 @@
 //! Rays followed by compute shaders, 32 lanes a ray (Číž 2017, Alg. 3), which the thesis left
-//! unfinished. The lanes of a ray agree by a mask in workgroup memory.
+//! unfinished. The lanes of a ray agree by a mask, put together by the ballots of subgroups where the
+//! adapter has these, else in workgroup memory.
 
 use crate::ReflectError;
 use crate::gpu::Gpu;
@@ -25,6 +26,7 @@ pub(crate) struct Lanes {
     write_list: wgpu::BindGroup,
     /// Group 2 of tracing: the list, and the images that are written.
     images: wgpu::BindGroup,
+    agreement: String,
 }
 
 impl Lanes {
@@ -52,7 +54,25 @@ impl Lanes {
             let layouts = [view_layout, mirror_layout, Some(&write_layout)];
             compute(gpu, &pixels, entry, &layouts)
         };
-        let lanes = module(gpu, "cubemap_lanes", &march::features(options))?;
+        let mut features = march::features(options);
+        let ballot = options.is("agree", "ballot");
+        let agreement = match gpu.info().subgroups.filter(|_| ballot) {
+            Some([least, most]) => {
+                features.push("ballot");
+                format!(
+                    "the lanes of a ray agree by ballots of subgroups of {least} to {most} lanes"
+                )
+            }
+            None => {
+                let none = if ballot {
+                    ": the adapter has no subgroups"
+                } else {
+                    ""
+                };
+                format!("the lanes of a ray agree in workgroup memory{none}")
+            }
+        };
+        let lanes = module(gpu, "cubemap_lanes", &features)?;
         let layouts = [
             view_layout,
             mirror_layout,
@@ -66,7 +86,13 @@ impl Lanes {
             write_list: group(gpu, &write_layout, &[list.as_entire_binding()]),
             images: group(gpu, &images_layout, &resources),
             list,
+            agreement,
         })
+    }
+
+    /// How the lanes of a ray come to one mask, in a sentence.
+    pub(crate) fn agreement(&self) -> &str {
+        &self.agreement
     }
 
     /// Traces into the stage's reflections and into `effort`; `groups` are those of the mirrors'

@@ -14,8 +14,11 @@ use crate::technique::Variant;
 pub(crate) struct March {
     color: wgpu::RenderPipeline,
     layers: wgpu::RenderPipeline,
-    effort: wgpu::RenderPipeline,
+    effort: Effort,
 }
+
+/// The pass `effort`: rays followed for what they take alone.
+pub(crate) struct Effort(wgpu::RenderPipeline);
 
 /// What options turn on in the shader.
 pub(crate) fn features(options: &Options) -> Vec<&'static str> {
@@ -32,7 +35,8 @@ pub(crate) fn features(options: &Options) -> Vec<&'static str> {
     on("texel", options.is("sampling", "texel"));
     on("pyramid", !options.is("pyramid", "off"));
     on("sound", options.is("pyramid", "sound"));
-    on("continuous", options.is("accept", "continuous"));
+    let signs = !options.is("criterion", "distance");
+    on("continuous", signs && options.is("accept", "continuous"));
     on("bounce", options.whole("bounces") > 1);
     on("clear", options.is("restart", "clear"));
     on("best", options.is("unresolved", "best"));
@@ -51,34 +55,12 @@ impl March {
         stage: &Stage,
         own_layout: &wgpu::BindGroupLayout,
     ) -> Result<Self, ReflectError> {
-        Self::with(gpu, &features(options), stage, own_layout)
-    }
-
-    /// With features of the shader named one by one.
-    pub(crate) fn with(
-        gpu: &Gpu,
-        features: &[&str],
-        stage: &Stage,
-        own_layout: &wgpu::BindGroupLayout,
-    ) -> Result<Self, ReflectError> {
-        let module = module(gpu, "cubemap_trace", features)?;
-        let layouts = [
-            Some(&stage.world.view_layout),
-            Some(&stage.gbuffer.mirror_layout),
-            None,
-            Some(own_layout),
-        ];
-        let pipeline = |entry, colors| {
-            let targets = RasterTargets {
-                colors,
-                depth: false,
-            };
-            raster(gpu, &module, entry, targets, &layouts, &[])
-        };
+        let module = module(gpu, "cubemap_trace", &features(options))?;
+        let pipeline = |entry, colors| pipeline(gpu, &module, entry, colors, stage, own_layout);
         Ok(Self {
             color: pipeline("color", 1),
             layers: pipeline("layers", 2),
-            effort: pipeline("effort", 1),
+            effort: Effort(pipeline("effort", 1)),
         })
     }
 
@@ -101,7 +83,7 @@ impl March {
         }
     }
 
-    /// Traces once more for what it took: samples, skips, resolving map, rays.
+    /// Traces once more for what it took.
     pub(crate) fn record_effort(
         &self,
         frame: &mut Recorder<'_>,
@@ -109,8 +91,53 @@ impl March {
         groups: &[&wgpu::BindGroup],
         target: &wgpu::TextureView,
     ) {
-        draw(frame, "effort", stage, groups, &self.effort, &[target]);
+        self.effort.record(frame, stage, groups, target);
     }
+}
+
+impl Effort {
+    /// With features of the shader named one by one; `own_layout`: group 3.
+    pub(crate) fn new(
+        gpu: &Gpu,
+        features: &[&str],
+        stage: &Stage,
+        own_layout: &wgpu::BindGroupLayout,
+    ) -> Result<Self, ReflectError> {
+        let module = module(gpu, "cubemap_trace", features)?;
+        Ok(Self(pipeline(gpu, &module, "effort", 1, stage, own_layout)))
+    }
+
+    /// Writes samples, skips, resolving map, rays.
+    pub(crate) fn record(
+        &self,
+        frame: &mut Recorder<'_>,
+        stage: &Stage,
+        groups: &[&wgpu::BindGroup],
+        target: &wgpu::TextureView,
+    ) {
+        draw(frame, "effort", stage, groups, &self.0, &[target]);
+    }
+}
+
+fn pipeline(
+    gpu: &Gpu,
+    module: &wgpu::ShaderModule,
+    entry: &str,
+    colors: usize,
+    stage: &Stage,
+    own_layout: &wgpu::BindGroupLayout,
+) -> wgpu::RenderPipeline {
+    let layouts = [
+        Some(&stage.world.view_layout),
+        Some(&stage.gbuffer.mirror_layout),
+        None,
+        Some(own_layout),
+    ];
+    let targets = RasterTargets {
+        colors,
+        depth: false,
+    };
+    raster(gpu, module, entry, targets, &layouts, &[])
 }
 
 fn draw(

@@ -18,6 +18,7 @@ mod variants;
 use catoptric_frame::{Image, Traced, Work};
 use catoptric_scene::Scene;
 use encase::ShaderType;
+use glam::DVec3;
 
 use self::fill::Fill;
 use self::lanes::Lanes;
@@ -32,7 +33,7 @@ use crate::recorder::Recorder;
 use crate::resources::{FLOAT4, Slot, group, target, uniform, view};
 use crate::spec::Options;
 use crate::stage::Stage;
-use crate::technique::Variant;
+use crate::technique::{DistanceLevel, Variant};
 
 /// Twin of `Trace` in `shared/rays.wesl`.
 #[derive(Clone, Copy, Debug, ShaderType)]
@@ -74,7 +75,7 @@ enum Tracer {
 const MORE: &[Slot] = &[Slot::Uniform, Slot::Textures, Slot::Textures];
 
 /// Why options do not go together.
-pub(crate) fn objection(options: &Options, _: &Scene) -> Option<String> {
+pub(crate) fn objection(options: &Options, scene: &Scene) -> Option<String> {
     let compute = options.is("stage", "compute");
     let needs = |key: &str, values: &[&str]| {
         let value = options.text(key);
@@ -86,9 +87,11 @@ pub(crate) fn objection(options: &Options, _: &Scene) -> Option<String> {
         })
     };
     needs("criterion", &["analytic", "distance"])
-        .or_else(|| needs("accept", &["any"]))
+        .or_else(|| needs("sampling", &["step", "texel"]))
+        .or_else(|| needs("pyramid", &["off", "sound"]))
         .or_else(|| needs("bounces", &["1"]))
         .or_else(|| needs("unresolved", &["mark", "background"]))
+        .or_else(|| placement::objection(options, scene))
 }
 
 fn trace_uniform(options: &Options, scene: &Scene) -> TraceUniform {
@@ -149,6 +152,11 @@ pub(crate) fn make(
     };
     draw_now(gpu, |frame| technique.record_maps(frame, stage));
     Ok(Box::new(technique))
+}
+
+/// A place as it may stand in a scene file.
+fn written(place: &DVec3) -> String {
+    format!("[{:.4}, {:.4}, {:.4}]", place.x, place.y, place.z)
 }
 
 impl MirrorMaps {
@@ -247,6 +255,36 @@ impl ImageOrder for CubemapTrace {
 
     fn may_be_unresolved(&self) -> bool {
         true
+    }
+
+    fn distance_levels(&self, gpu: &Gpu, stage: &Stage) -> Option<Vec<DistanceLevel>> {
+        let mirror = self.mirrors.first()?;
+        let pyramid = mirror.pyramid.as_ref()?;
+        Some(pyramid.levels(gpu, &mirror.maps, diagonal(&stage.world.scene)))
+    }
+
+    fn notes(&self, gpu: &Gpu, stage: &Stage) -> Vec<String> {
+        let mirrors = stage.world.scene.mirrors.iter().zip(&self.mirrors);
+        let mut notes: Vec<String> = mirrors
+            .map(|(mirror, its)| {
+                let places: Vec<_> = its.maps.centers().iter().map(written).collect();
+                format!("maps of {}: {}", mirror.name, places.join(", "))
+            })
+            .collect();
+        if let Some(traced) = self.traced(gpu, stage) {
+            let pixels = traced.pixels().max(1) as f64;
+            let share = |count: u64| format!("{:.2} %", 100.0 * count as f64 / pixels);
+            let by_map: Vec<_> = traced.resolved_by.iter().map(|n| share(*n)).collect();
+            notes.push(format!(
+                "resolved in the first map and those after it: {}; in none: {}",
+                by_map.join(", "),
+                share(traced.unresolved)
+            ));
+        }
+        if let Tracer::Compute(lanes) = &self.tracer {
+            notes.push(lanes.agreement().to_owned());
+        }
+        notes
     }
 
     fn traced(&self, gpu: &Gpu, _: &Stage) -> Option<Traced> {

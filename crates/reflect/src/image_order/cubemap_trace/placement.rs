@@ -1,14 +1,14 @@
-//! Where a mirror's cube maps are taken from (Číž 2017, section 3.8): near its surface, far from
-//! each other, the most successful first.
+//! Where a mirror's cube maps are taken from (Číž 2017, section 3.8): from where the scene file says,
+//! or near its surface, far from each other, the most successful first.
 //!
-//! Candidates are tried out: small maps are drawn from each, and a small picture says for which
+//! Without a place in the file, candidates are tried out: small maps are drawn from each, and a small picture says for which
 //! mirror pixels the ray is resolved there with certainty (a sign change of Δ where the map is
 //! continuous). Then the maps are chosen greedily, each for the pixels that those before leave.
 
-use catoptric_scene::{Mirror, Random, Shape};
+use catoptric_scene::{Mirror, Random, Scene, Shape};
 use glam::DVec3;
 
-use super::march::March;
+use super::march::Effort;
 use super::{MORE, MirrorMaps, TraceUniform};
 use crate::ReflectError;
 use crate::gpu::Gpu;
@@ -38,6 +38,10 @@ pub(crate) fn places(
     let wanted = options.whole("objects") as usize;
     let outside = options.whole("bounces") > 1;
     let scene = &stage.world.scene;
+    if options.is("placement", "scene") {
+        let by_mirror = scene.mirrors.iter();
+        return Ok(by_mirror.map(|m| m.cubemaps[..wanted].to_vec()).collect());
+    }
     let mut rng = Random::new(SEED);
     let mut candidates: Vec<Vec<DVec3>> = Vec::new();
     for mirror in &scene.mirrors {
@@ -53,6 +57,31 @@ pub(crate) fn places(
         order.into_iter().map(|index| centers[index]).collect()
     });
     Ok(chosen.collect())
+}
+
+/// Why the places in the scene file do not do.
+pub(crate) fn objection(options: &Options, scene: &Scene) -> Option<String> {
+    if !options.is("placement", "scene") {
+        return None;
+    }
+    let wanted = options.whole("objects") as usize;
+    let outside = options.whole("bounces") > 1;
+    scene.mirrors.iter().find_map(|mirror| {
+        let (name, listed) = (&mirror.name, mirror.cubemaps.len());
+        if listed < wanted {
+            return Some(format!(
+                "placement=scene: mirror \"{name}\" has places for {listed} of the {wanted} maps \
+                 (key `cubemaps` in the scene file)"
+            ));
+        }
+        let inside = |center: &&DVec3| outside && mirror.shape.contains(**center);
+        let center = mirror.cubemaps[..wanted].iter().find(inside)?;
+        Some(format!(
+            "placement=scene: with bounces={} the maps show the mirrors, but the one at {center} lies \
+             inside mirror \"{name}\"",
+            options.whole("bounces")
+        ))
+    })
 }
 
 /// Points near a mirror's surface, the first one a good guess. Inside closed mirrors only where
@@ -123,7 +152,7 @@ struct Trial<'a> {
     options: &'a Options,
     stage: Stage,
     own_layout: wgpu::BindGroupLayout,
-    march: March,
+    rays: Effort,
 }
 
 impl<'a> Trial<'a> {
@@ -138,13 +167,13 @@ impl<'a> Trial<'a> {
             "any" => &["continuous", "strict"],
             _ => &["continuous"],
         };
-        let march = March::with(gpu, features, &stage, &own_layout)?;
+        let rays = Effort::new(gpu, features, &stage, &own_layout)?;
         draw_now(gpu, |frame| stage.begin(frame, Variant::Color));
         Ok(Self {
             options,
             stage,
             own_layout,
-            march,
+            rays,
         })
     }
 
@@ -188,8 +217,8 @@ impl<'a> Trial<'a> {
                 for maps in &maps {
                     maps.record(frame, &self.stage);
                 }
-                self.march
-                    .record_effort(frame, &self.stage, &groups, &view(&effort));
+                self.rays
+                    .record(frame, &self.stage, &groups, &view(&effort));
             });
             let texels = gpu.read_texture(&effort);
             let mirrors = gpu.read_texture(&self.stage.gbuffer.position);

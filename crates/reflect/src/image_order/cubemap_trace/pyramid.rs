@@ -9,6 +9,7 @@ use crate::gpu::Gpu;
 use crate::image_order::cubemaps::{CubeMaps, FACES};
 use crate::recorder::Recorder;
 use crate::resources::{Slot, compute, group, layout, module, texture_array, uniform};
+use crate::technique::DistanceLevel;
 
 /// Side of the pass's workgroups, in cells.
 const GROUP: u32 = 8;
@@ -69,6 +70,25 @@ impl Pyramid {
             groups,
             texture,
         })
+    }
+
+    /// Reads back all levels, those of the single texels first; `maps` are those it was made for.
+    pub(crate) fn levels(&self, gpu: &Gpu, maps: &CubeMaps, far: f32) -> Vec<DistanceLevel> {
+        let texel = |distance: f32| [if distance == 0.0 { far } else { distance }; 2];
+        let texels = gpu.read_layers(&maps.distances, 0);
+        let finest = DistanceLevel {
+            side: maps.size(),
+            ranges: texels.into_iter().map(texel).collect(),
+        };
+        let coarser = (0..self.texture.mip_level_count()).map(|level| DistanceLevel {
+            side: self.texture.width() >> level,
+            ranges: gpu
+                .read_layers(&self.texture, level)
+                .chunks_exact(2)
+                .map(|cell| [cell[0], cell[1]])
+                .collect(),
+        });
+        std::iter::once(finest).chain(coarser).collect()
     }
 
     /// Builds all levels, as the pass `pyramid`.

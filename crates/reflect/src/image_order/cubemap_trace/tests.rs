@@ -46,7 +46,7 @@ fn same(a: &Frame, b: &Frame) -> f64 {
 fn skipping_changes_nothing_and_saves_samples() {
     let Some(gpu) = gpu_or_skip() else { return };
     let scene = scene("sphere-objects-1k");
-    for criterion in ["analytic", "distance"] {
+    for criterion in ["analytic", "analytic,accept=any", "distance"] {
         let technique = |pyramid| {
             format!(
                 "cubemap-trace(size=128,criterion={criterion},placement=random,pyramid={pyramid})"
@@ -68,7 +68,7 @@ fn skipping_changes_nothing_and_saves_samples() {
 fn lanes_find_what_fragments_find_texel_by_texel() {
     let Some(gpu) = gpu_or_skip() else { return };
     let scene = scene("sphere-table");
-    for criterion in ["analytic", "distance"] {
+    for criterion in ["analytic", "analytic,accept=any", "distance"] {
         // 64: three levels, the last with less than 32 cells a node.
         let technique = |options| {
             format!("cubemap-trace(size=64,criterion={criterion},placement=random,{options})")
@@ -78,6 +78,47 @@ fn lanes_find_what_fragments_find_texel_by_texel() {
         let share = same(&fragments.frame, &lanes.frame);
         assert!(share >= SAME_BY_LANES, "{criterion}: {share}");
     }
+}
+
+#[test]
+fn lanes_agree_by_ballots_as_they_do_in_memory() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    if gpu.info().subgroups.is_none() {
+        eprintln!("skipped: {} has no subgroups", gpu.info().name);
+        return;
+    }
+    let scene = scene("sphere-table");
+    let lanes = |agree| {
+        let technique =
+            format!("cubemap-trace(size=128,stage=compute,placement=random,agree={agree})");
+        render(&gpu, &scene, &technique)
+    };
+    let (ballot, memory) = (lanes("ballot"), lanes("memory"));
+    assert_eq!(same(&ballot.frame, &memory.frame), 1.0);
+    assert_eq!(ballot.traced, memory.traced);
+    assert_ne!(ballot.notes, memory.notes);
+}
+
+#[test]
+fn maps_stand_where_the_scene_says() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let spec = parse("cubemap-trace(size=32,placement=scene)").expect("a technique");
+    let mut scene = scene("sphere-table");
+    let reason = |scene: &Scene, spec| match crate::supports(spec, scene) {
+        crate::Support::Yes => String::new(),
+        crate::Support::No(reason) => reason,
+    };
+    assert!(reason(&scene, &spec).contains("0 of the 2 maps"));
+    let center = scene.mirrors[0].shape.center();
+    let above = center + 1.5 * glam::DVec3::Y;
+    scene.mirrors[0].cubemaps = vec![above, center];
+    assert_eq!(reason(&scene, &spec), "");
+    let stage = Stage::new(&gpu, &spec.options, &scene, SIZE).expect("fits the device");
+    let places = super::placement::places(&gpu, &spec.options, &stage).expect("fits the device");
+    assert_eq!(places, [[above, center]]);
+    // Where the maps show the mirror, they must see it from outside.
+    let spec = parse("cubemap-trace(bounces=2,placement=scene)").expect("a technique");
+    assert!(reason(&scene, &spec).contains("inside mirror"));
 }
 
 #[test]
@@ -132,45 +173,6 @@ fn a_pixel_that_no_map_resolves_is_filled() {
     );
 }
 
-/// Values of a mip level of all layers, `channels` floats a texel.
-fn read_level(gpu: &Gpu, texture: &wgpu::Texture, level: u32, channels: u32) -> Vec<f32> {
-    let side = texture.width() >> level;
-    let layers = texture.depth_or_array_layers();
-    let row = (side * channels * 4).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-    let staging = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-        label: None,
-        size: u64::from(row) * u64::from(side * layers),
-        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC,
-        mapped_at_creation: false,
-    });
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    encoder.copy_texture_to_buffer(
-        wgpu::TexelCopyTextureInfo {
-            mip_level: level,
-            ..texture.as_image_copy()
-        },
-        wgpu::TexelCopyBufferInfo {
-            buffer: &staging,
-            layout: wgpu::TexelCopyBufferLayout {
-                offset: 0,
-                bytes_per_row: Some(row),
-                rows_per_image: Some(side),
-            },
-        },
-        wgpu::Extent3d {
-            width: side,
-            height: side,
-            depth_or_array_layers: layers,
-        },
-    );
-    gpu.queue.submit([encoder.finish()]);
-    let bytes = gpu.read_buffer(&staging);
-    let rows = bytes.chunks_exact(row as usize);
-    rows.flat_map(|line| line[..(side * channels * 4) as usize].chunks_exact(4))
-        .map(bytemuck::pod_read_unaligned)
-        .collect()
-}
-
 #[test]
 fn the_pyramid_is_that_of_the_cpu() {
     let Some(gpu) = gpu_or_skip() else { return };
@@ -190,7 +192,7 @@ fn the_pyramid_is_that_of_the_cpu() {
     draw_now(&gpu, |frame| maps.record(frame, &stage));
 
     let far = crate::data::diagonal(&scene);
-    let distances = read_level(&gpu, &maps.maps.distances, 0, 1);
+    let distances = gpu.read_layers(&maps.maps.distances, 0);
     assert!(distances.contains(&0.0), "the background is in view");
     assert!(distances.iter().all(|d| *d < far));
     let range = |d: f32| if d == 0.0 { [far; 2] } else { [d; 2] };
@@ -208,7 +210,7 @@ fn the_pyramid_is_that_of_the_cpu() {
                 cells.push([least, most]);
             }
         }
-        let on_gpu = read_level(&gpu, &pyramid, level, 2);
+        let on_gpu = gpu.read_layers(&pyramid, level);
         let on_gpu: Vec<[f32; 2]> = on_gpu.chunks_exact(2).map(|c| [c[0], c[1]]).collect();
         assert_eq!(on_gpu, cells, "level {level}");
         finer = cells;

@@ -147,6 +147,9 @@ pub struct CompareArgs {
 pub struct BenchArgs {
     /// Name of the suite
     pub suite: String,
+    /// Every cell of the paper's grid, where the suite by itself measures a part (`cubemap`)
+    #[arg(long)]
+    pub full: bool,
     /// A scene of yours (or a built-in one) in place of the suite's own, wherever that makes sense
     #[arg(long, value_name = "SCENE")]
     pub scene: Option<String>,

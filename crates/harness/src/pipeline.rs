@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use catoptric_frame::{Frame, Status as Pixel, TrueVertex};
 use catoptric_metrics::{CompareOptions, Comparison, Summary, Timing, VertexReport};
 use catoptric_reference::{NotAvailable, RenderOptions, Tracer, Truth as Bounces, true_vertices};
-use catoptric_reflect::{Gpu, Output, Prepared, ReflectError, Spec, Support};
+use catoptric_reflect::{DistanceLevel, Gpu, Output, Prepared, ReflectError, Spec, Support};
 use catoptric_scene::{LoadOptions, Scene, SceneError, builtin};
 use glam::DVec2;
 
@@ -95,6 +95,13 @@ pub struct Rendered<'g> {
     temporal: Option<Steadiness>,
     /// Picture, vertices, triangles and work.
     pub output: Output,
+}
+
+impl Rendered<'_> {
+    /// The pyramid over the technique's cube maps of distance, if it has one.
+    pub fn distance_levels(&self) -> Option<Vec<DistanceLevel>> {
+        self.prepared.distance_levels()
+    }
 }
 
 /// Why a row has no numbers.

@@ -52,6 +52,9 @@ pub struct Point {
     pub frames: Option<u32>,
     /// Whether its pictures come on the page.
     pub picture: bool,
+    /// A number of its record that says where it stands on the axis, in place of `x`: error against
+    /// time, for example.
+    pub along: Option<&'static str>,
 }
 
 impl Point {
@@ -64,6 +67,7 @@ impl Point {
             technique: technique.into(),
             frames: None,
             picture: false,
+            along: None,
         }
     }
 

@@ -29,6 +29,7 @@ mod cubemap;
 mod estalella;
 mod figure;
 mod page;
+mod papers;
 mod plan;
 mod results;
 mod search;
@@ -66,13 +67,14 @@ pub struct Suite {
 pub type MakePictures = fn(&Studio<'_>) -> anyhow::Result<Vec<Picture>>;
 
 /// Every suite, by name.
-pub const SUITES: [&Suite; 6] = [
+pub const SUITES: [&Suite; 7] = [
     &search::SUITE,
     &tessellation::SUITE,
     &estalella::SUITE,
     &cubemap::SUITE,
     &cubemap::FULL,
     &control::SUITE,
+    &papers::SUITE,
 ];
 
 /// What a suite's own pictures are made with.
@@ -115,8 +117,18 @@ pub fn help() -> String {
 
 /// Runs a suite and writes its page.
 pub fn run(args: &BenchArgs, common: &Common) -> anyhow::Result<Outcome> {
-    let suite = find(&args.suite)?;
-    let figures = (suite.figures)(args.scene.as_deref());
+    let suite = match args.full {
+        false => find(&args.suite)?,
+        true => whole(find(&args.suite)?)?,
+    };
+    let mut figures = (suite.figures)(args.scene.as_deref());
+    if let Some(size) = common.resolution {
+        // All is measured in the size asked for, so that is where a figure finds its points.
+        let series = figures.iter_mut().flat_map(|figure| &mut figure.series);
+        for point in series.flat_map(|series| &mut series.points) {
+            point.resolution = Some(size);
+        }
+    }
     let timing = args.time_budget.unwrap_or(suite.timing_s);
     let setup = Setup::new(&plan::wanted(&figures, timing), common)?;
     let default = || PathBuf::from(format!("bench-{}", suite.name));
@@ -175,6 +187,16 @@ fn outcome(rows: &[Record], wanted: usize) -> Outcome {
     }
 }
 
+/// The suite that measures every cell: its name ends in `-full`.
+fn whole(suite: &Suite) -> anyhow::Result<&'static Suite> {
+    let name = format!("{}-full", suite.name);
+    let found = SUITES.into_iter().find(|other| other.name == name);
+    found.ok_or_else(|| {
+        let name = suite.name;
+        bad_input(format!("`--full`: suite `{name}` has no larger grid"))
+    })
+}
+
 fn find(name: &str) -> anyhow::Result<&'static Suite> {
     if let Some(suite) = SUITES.iter().find(|suite| suite.name == name) {
         return Ok(suite);
@@ -211,6 +233,11 @@ mod tests {
                     assert!(figure.series.iter().any(series), "{what}: {}", ask.series);
                 }
                 for point in figure.series.iter().flat_map(|series| &series.points) {
+                    assert!(
+                        point.along.is_none_or(is_metric),
+                        "{what}: {:?}",
+                        point.along
+                    );
                     assert!(scenes.contains(&point.scene), "{what}: {}", point.scene);
                     let technique = crate::setup::parse(&point.technique);
                     assert!(technique.is_ok(), "{what}: {technique:?}");
@@ -247,6 +274,14 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn the_whole_grid_is_a_flag_away() {
+        let full = |name| find(name).and_then(whole).map(|suite| suite.name);
+        assert_eq!(full("cubemap").ok(), Some("cubemap-full"));
+        let error = full("search").err().map(|error| error.to_string());
+        assert!(error.is_some_and(|text| text.contains("no larger grid")));
     }
 
     #[test]

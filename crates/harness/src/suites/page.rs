@@ -176,7 +176,7 @@ fn plots(figure: &Figure, results: &Results<'_>) -> Vec<Plot> {
             let marks = series.points.iter().filter_map(|point| {
                 let y = results.value(point, quantity.path)?;
                 Some(Mark {
-                    x: point.x,
+                    x: results.place(point)?,
                     y,
                     name: String::new(),
                     label: format!("{}, {}: {}", series.label, point.scene, significant(y)),
@@ -235,7 +235,8 @@ fn table(figure: &Figure, results: &Results<'_>) -> Table {
         for point in &series.points {
             let x = match &figure.axis.scale {
                 Scale::Names(names) => names.get(point.x as usize).cloned().unwrap_or_default(),
-                Scale::Linear | Scale::Log => format!("{}", point.x),
+                Scale::Linear | Scale::Log if point.along.is_none() => format!("{}", point.x),
+                Scale::Linear | Scale::Log => words::or_dash(results.place(point)),
             };
             let values = figure
                 .quantities

@@ -47,6 +47,13 @@ impl<'r> Results<'r> {
         lookup(value, path)?.as_f64()
     }
 
+    /// Where a point stands on the axis; `None` where that is measured and is not known.
+    pub fn place(&self, point: &Point) -> Option<f64> {
+        point
+            .along
+            .map_or(Some(point.x), |path| self.value(point, path))
+    }
+
     /// Place on the axis and number of all points of a series that have it.
     pub fn curve(&self, series: &str, path: &str) -> Vec<(f64, f64)> {
         let found = self
@@ -56,7 +63,7 @@ impl<'r> Results<'r> {
             .find(|found| found.label == series);
         let points = found.into_iter().flat_map(|series| &series.points);
         points
-            .filter_map(|point| Some((point.x, self.value(point, path)?)))
+            .filter_map(|point| Some((self.place(point)?, self.value(point, path)?)))
             .collect()
     }
 

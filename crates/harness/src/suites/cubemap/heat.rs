@@ -16,10 +16,10 @@ const SHOWN: [(&str, &str); 4] = [
         "distance, accelerated",
         "criterion=distance,pyramid=published",
     ),
-    ("analytic", "criterion=analytic"),
+    ("analytic", "criterion=analytic,accept=any"),
     (
         "analytic, accelerated",
-        "criterion=analytic,pyramid=published",
+        "criterion=analytic,accept=any,pyramid=published",
     ),
 ];
 

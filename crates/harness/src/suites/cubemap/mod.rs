@@ -1,23 +1,27 @@
 //! `catoptric bench cubemap`: cubemap tracing, Číž 2017, chapter 5, and what the thesis owed: the
-//! comparison with the truth for every cell of its table. `cubemap-full` measures the whole grid.
+//! comparison with the truth for every cell of its table. `--full` measures the whole grid.
 
 mod grid;
 mod heat;
+mod levels;
 mod options;
+mod sweeps;
 mod techniques;
 
 use crate::plot::{Axis, Scale};
 
-use super::{Figure, Point, Quantity, Results, Series, Suite};
+use super::{Figure, Picture, Point, Quantity, Results, Series, Studio, Suite};
 
 /// The suite with a grid that fits a quarter of an hour on two cores.
 pub const SUITE: Suite = Suite {
     name: "cubemap",
     title: "Cubemap tracing",
     why: "What do a few cube maps of distance give in place of a ray tracer: how exact are they by \
-          criterion, sampling, acceleration, face size and number, and what do they cost?",
+          criterion, sampling, acceleration, face size and number, and what do they cost? Unless a \
+          figure says otherwise: pictures of 160×120, two maps of 256² placed automatically, rays of \
+          twice the scene's diagonal, a thousand steps a ray.",
     figures: |scene| figures(scene, grid::DEFAULT),
-    pictures: Some(heat::pictures),
+    pictures: Some(pictures),
     timing_s: 90.0,
 };
 
@@ -33,6 +37,12 @@ pub const FULL: Suite = Suite {
 /// Picture size of everything outside the grid: steps of a thousandth of a ray are slow on a
 /// software adapter.
 const SIZE: [u32; 2] = [160, 120];
+
+fn pictures(studio: &Studio<'_>) -> anyhow::Result<Vec<Picture>> {
+    let mut pictures = heat::pictures(studio)?;
+    pictures.extend(levels::pictures(studio)?);
+    Ok(pictures)
+}
 
 const FRAME_MS: &str = "time_ms.frame.median";
 const AGREEMENT: &str = "object_agreement";

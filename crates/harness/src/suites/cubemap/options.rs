@@ -1,11 +1,10 @@
-//! One option at a time: criterion, sampling, acceleration, face size, number of maps, stage, what
-//! unresolved pixels show, bounces.
+//! One option at a time: criterion, sampling, acceleration, stage, what unresolved pixels show.
 
 use crate::plot::Axis;
 use crate::report::words::{percent, short};
-use crate::suites::{Figure, Quantity, Results, Series};
+use crate::suites::{Figure, Quantity, Results};
 
-use super::{AGREEMENT, ANGLE, FRAME_MS, SAMPLES, UNRESOLVED, by_scene, names, point, quantities};
+use super::{AGREEMENT, SAMPLES, by_scene, names, quantities};
 
 /// Where one option is looked at.
 const SCENES: [&str; 2] = ["sphere-objects-1k", "box"];
@@ -13,25 +12,23 @@ const SCENES: [&str; 2] = ["sphere-objects-1k", "box"];
 pub fn figures(scene: Option<&str>) -> Vec<Figure> {
     let own = scene.map(|scene| [scene]);
     let scenes = own.as_ref().map_or(SCENES.as_slice(), |scene| scene);
-    vec![
+    let mut figures = vec![
         criteria(scenes),
         samplings(scenes),
         pyramids(scenes),
         unresolved(scenes),
         stages(scenes),
-        faces(scenes),
-        objects(scenes),
-        rebuild(scenes),
-        bounces(scene),
-    ]
+    ];
+    figures.extend(super::sweeps::figures(scene, scenes));
+    figures
 }
 
-fn cubemap(options: &str) -> String {
+pub fn cubemap(options: &str) -> String {
     format!("cubemap-trace({options})")
 }
 
 /// A figure with an option's values along the axis.
-fn values(figure: Figure, label: &str, values: &[(&str, &str)], scenes: &[&str]) -> Figure {
+pub fn values(figure: Figure, label: &str, values: &[(&str, &str)], scenes: &[&str]) -> Figure {
     let techniques: Vec<_> = values.iter().map(|(_, options)| cubemap(options)).collect();
     Figure {
         axis: names(label, values.iter().map(|(name, _)| *name)),
@@ -41,7 +38,7 @@ fn values(figure: Figure, label: &str, values: &[(&str, &str)], scenes: &[&str])
     }
 }
 
-fn figure(anchor: &'static str, title: &str, after: &'static str, question: &str) -> Figure {
+pub fn figure(anchor: &'static str, title: &str, after: &'static str, question: &str) -> Figure {
     Figure {
         anchor,
         title: title.to_owned(),
@@ -57,10 +54,10 @@ fn figure(anchor: &'static str, title: &str, after: &'static str, question: &str
 
 const CRITERIA: [(&str, &str); 5] = [
     ("distance", "criterion=distance"),
-    ("analytic", "criterion=analytic"),
-    ("both", "criterion=both"),
-    ("switch", "criterion=switch"),
-    ("continuous", "criterion=analytic,accept=continuous"),
+    ("analytic", "criterion=analytic,accept=any"),
+    ("both", "criterion=both,accept=any"),
+    ("switch", "criterion=switch,accept=any"),
+    ("continuous", "criterion=analytic"),
 ];
 
 fn criteria(scenes: &[&str]) -> Figure {
@@ -89,9 +86,9 @@ fn criteria(scenes: &[&str]) -> Figure {
 }
 
 const SAMPLINGS: [(&str, &str); 3] = [
-    ("step", "sampling=step"),
-    ("angle", "sampling=angle"),
-    ("texel", "sampling=texel"),
+    ("step", "sampling=step,accept=any"),
+    ("angle", "sampling=angle,accept=any"),
+    ("texel", "sampling=texel,accept=any"),
 ];
 
 fn samplings(scenes: &[&str]) -> Figure {
@@ -105,9 +102,9 @@ fn samplings(scenes: &[&str]) -> Figure {
 }
 
 const PYRAMIDS: [(&str, &str); 6] = [
-    ("off", "pyramid=off"),
-    ("published", "pyramid=published"),
-    ("sound", "pyramid=sound"),
+    ("off", "pyramid=off,accept=any"),
+    ("published", "pyramid=published,accept=any"),
+    ("sound", "pyramid=sound,accept=any"),
     ("off, distance", "criterion=distance,pyramid=off"),
     (
         "published, distance",
@@ -158,21 +155,12 @@ fn pyramids(scenes: &[&str]) -> Figure {
 }
 
 const UNRESOLVED_AS: [(&str, &str); 6] = [
-    ("marked", "objects=1,accept=continuous,unresolved=mark"),
-    (
-        "environment",
-        "objects=1,accept=continuous,unresolved=environment",
-    ),
-    (
-        "background",
-        "objects=1,accept=continuous,unresolved=background",
-    ),
-    (
-        "neighbours",
-        "objects=1,accept=continuous,unresolved=neighbours",
-    ),
-    ("best", "objects=1,accept=continuous,unresolved=best"),
-    ("ray trace", "objects=1,accept=continuous,unresolved=trace"),
+    ("marked", "objects=1,unresolved=mark"),
+    ("environment", "objects=1,unresolved=environment"),
+    ("background", "objects=1,unresolved=background"),
+    ("neighbours", "objects=1,unresolved=neighbours"),
+    ("best", "objects=1,unresolved=best"),
+    ("ray trace", "objects=1,unresolved=trace"),
 ];
 
 fn unresolved(scenes: &[&str]) -> Figure {
@@ -203,140 +191,6 @@ fn stages(scenes: &[&str]) -> Figure {
     values(figure, "stage", &STAGES, scenes)
 }
 
-/// Sizes of faces and numbers of maps are swept with the criterion that does not err at
-/// discontinuities, and with the published one.
-const SWEPT: [(&str, &str); 2] = [
-    ("any sign change", "sampling=texel,pyramid=sound"),
-    (
-        "continuous ones",
-        "sampling=texel,pyramid=sound,accept=continuous",
-    ),
-];
-
-fn sweep(scenes: &[&str], xs: &[u32], option: &str, environment: bool) -> Vec<Series> {
-    let mut series = Vec::new();
-    for scene in scenes {
-        let points = |technique: &dyn Fn(u32) -> String| {
-            let points = xs.iter().map(|x| point(*x as usize, scene, technique(*x)));
-            points.collect()
-        };
-        for (label, options) in SWEPT {
-            series.push(Series {
-                label: format!("{scene}, {label}"),
-                points: points(&|x| cubemap(&format!("{option}={x},{options}"))),
-            });
-        }
-        if environment {
-            series.push(Series {
-                label: format!("{scene}, environment-map"),
-                points: points(&|x| format!("environment-map({option}={x})")),
-            });
-        }
-    }
-    series
-}
-
-fn faces(scenes: &[&str]) -> Figure {
-    Figure {
-        axis: Axis::log("texels a side of a face"),
-        series: sweep(scenes, &[32, 64, 128, 256, 512], "size", true),
-        quantities: quantities(),
-        analysis: rising,
-        ..figure(
-            "faces",
-            "Face size",
-            "Číž 2017, Table 5.2",
-            "Exactness and cost against the size of the faces.",
-        )
-    }
-}
-
-fn objects(scenes: &[&str]) -> Figure {
-    Figure {
-        axis: Axis::linear("maps"),
-        series: sweep(scenes, &[1, 2, 3, 4], "objects", false),
-        quantities: quantities(),
-        analysis: rising,
-        ..figure(
-            "objects",
-            "Number of maps",
-            "Číž 2017, section 3.8",
-            "Maps placed one after the other, each for the pixels that those before leave.",
-        )
-    }
-}
-
-fn rebuild(scenes: &[&str]) -> Figure {
-    let sizes = [64_u32, 128, 256, 512];
-    let series = |scene: &&str| Series {
-        label: (*scene).to_owned(),
-        points: sizes
-            .iter()
-            .map(|size| {
-                let options = format!("size={size},update=frame,pyramid=sound,sampling=texel");
-                point(*size as usize, scene, cubemap(&options))
-            })
-            .collect(),
-    };
-    Figure {
-        axis: Axis::log("texels a side of a face"),
-        series: scenes.iter().map(series).collect(),
-        quantities: vec![
-            Quantity::log("drawing the maps (ms)", "time_ms.passes.maps"),
-            Quantity::log("building the pyramid (ms)", "time_ms.passes.pyramid"),
-            Quantity::log("time of a frame (ms)", FRAME_MS),
-        ],
-        ..figure(
-            "rebuild",
-            "Maps and pyramid drawn anew",
-            "Číž 2017, Table 5.2, last rows",
-            "Two maps drawn in every frame, as a scene in motion needs it. The thesis quotes, on a GT \
-             540M, for faces of 128², 256², 512²: 8, 35, 136 ms for the maps and 7, 10, 14 ms for the \
-             pyramid.",
-        )
-    }
-}
-
-const BOUNCES: [(&str, &str); 4] = [
-    ("1", "accept=continuous"),
-    ("3", "accept=continuous,bounces=3"),
-    (
-        "3, clear sample",
-        "accept=continuous,bounces=3,restart=clear",
-    ),
-    ("3, published bias", "bounces=3,bias=0.0005"),
-];
-
-fn bounces(scene: Option<&str>) -> Figure {
-    let scenes = [scene.unwrap_or("bowl")];
-    let figure = Figure {
-        quantities: vec![
-            Quantity::linear(
-                "right object, mirrors in mirrors",
-                "against_full.object_agreement",
-            ),
-            Quantity::linear("right object, first bounce", AGREEMENT),
-            Quantity::linear("share of pixels unresolved", UNRESOLVED),
-            Quantity::log("samples per mirror pixel", SAMPLES),
-            Quantity::log("time of a frame (ms)", FRAME_MS),
-        ],
-        ..figure(
-            "bounces",
-            "Mirrors in mirrors",
-            "Číž 2017, section 3.3 and chapter 4",
-            "The maps show the mirror too, with its normal; a ray that meets it is reflected again. \
-             The published bias is a share of the ray; ours goes with the width of a texel and the \
-             angle; the alternative waits for a sample that is clear of the surface. The judge is the \
-             truth with mirrors in mirrors.",
-        )
-    };
-    let quantities = figure.quantities.clone();
-    Figure {
-        quantities,
-        ..values(figure, "rays", &BOUNCES, &scenes)
-    }
-}
-
 /// The agreement of two values of an option on each scene, put into words.
 fn compared(
     results: &Results<'_>,
@@ -351,29 +205,6 @@ fn compared(
         let agreement = |x: usize| results.value(series.points.get(x)?, AGREEMENT);
         let words = words(agreement(one)?, agreement(other)?);
         Some(format!("{}: {words}.", series.label))
-    });
-    sentences.collect()
-}
-
-/// How agreement and angle go from the first place to the last.
-fn rising(results: &Results<'_>) -> Vec<String> {
-    let series = results.series().iter();
-    let sentences = series.filter_map(|series| {
-        let ends = |path| {
-            let curve = results.curve(&series.label, path);
-            Some((curve.first()?.1, curve.last()?.1))
-        };
-        let (low, high) = ends(AGREEMENT)?;
-        let (coarse, fine) = ends(ANGLE)?;
-        Some(format!(
-            "{}: from the first to the last place the right object goes from {} to {} of the pixels, \
-             the median angle from {}° to {}°.",
-            series.label,
-            percent(low),
-            percent(high),
-            short(coarse),
-            short(fine)
-        ))
     });
     sentences.collect()
 }

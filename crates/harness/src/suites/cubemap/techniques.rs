@@ -6,7 +6,13 @@ use crate::report::words::{percent, short};
 use crate::suites::results::power;
 use crate::suites::{Figure, Point, Quantity, Results, Series};
 
-use super::{AGREEMENT, ANGLE, FRAME_MS, UNRESOLVED, by_scene, names, point};
+use super::{AGREEMENT, FRAME_MS, UNRESOLVED, names, point};
+
+const FULL: &str = "against_full.object_agreement";
+const PREPARE_MS: &str = "time_ms.prepare";
+const TRACE_MS: &str = "time_ms.passes.trace";
+/// A cost that grows as the scene to a smaller power counts as flat.
+const FLAT: f64 = 0.05;
 
 /// Label and technique.
 const ALL: [(&str, &str); 9] = [
@@ -16,87 +22,45 @@ const ALL: [(&str, &str); 9] = [
     ("environment map", "environment-map"),
     ("environment map, redrawn", "environment-map(update=frame)"),
     ("planar", "planar"),
-    ("cubemap trace", "cubemap-trace"),
+    ("cubemap trace, published", "cubemap-trace(accept=any)"),
     (
-        "cubemap trace, ours",
-        "cubemap-trace(sampling=texel,pyramid=sound,accept=continuous)",
+        "cubemap trace",
+        "cubemap-trace(sampling=texel,pyramid=sound)",
     ),
     ("ray trace (control)", "ray-trace"),
 ];
 
-/// Where all stand beside each other.
-const SCENES: [&str; 4] = ["sphere-table", "box", "bowl", "planar"];
-
 pub fn figures(scene: Option<&str>) -> Vec<Figure> {
-    let own = scene.map(|scene| [scene]);
-    let scenes = own.as_ref().map_or(SCENES.as_slice(), |scene| scene);
-    let mut figures = vec![all(scenes)];
-    if scene.is_none() {
-        figures.push(capabilities());
-        figures.push(growth());
+    match scene {
+        Some(_) => Vec::new(),
+        None => vec![capabilities(), growth()],
     }
-    figures
 }
 
-fn all(scenes: &[&str]) -> Figure {
-    let techniques = ALL.map(|(_, technique)| technique.to_owned());
-    Figure {
-        anchor: "all",
-        title: "All techniques".to_owned(),
-        after: "all four papers",
-        question: "The same scenes by every technique: error, time and work.".to_owned(),
-        axis: names("technique", ALL.map(|(label, _)| label)),
-        series: by_scene(scenes, &techniques, None),
-        quantities: vec![
-            Quantity::linear("share of pixels with the right object", AGREEMENT),
-            Quantity::log("angular error, median (°)", ANGLE),
-            Quantity::linear("FLIP", "color.flip"),
-            Quantity::log("time of a frame (ms)", FRAME_MS),
-        ],
-        quotes: Vec::new(),
-        analysis: |results| {
-            let series = results.series().iter();
-            let sentences = series.filter_map(|series| {
-                let agreements = series
-                    .points
-                    .iter()
-                    .filter(|point| point.technique != "ray-trace");
-                let best = agreements
-                    .filter_map(|point| Some((results.value(point, AGREEMENT)?, point)))
-                    .max_by(|a, b| a.0.total_cmp(&b.0))?;
-                Some(format!(
-                    "{}: of all but the control, {} has the right object most often, on {} of the \
-                     mirror pixels.",
-                    series.label,
-                    best.1.technique,
-                    percent(best.0)
-                ))
-            });
-            sentences.collect()
-        },
-    }
-}
+const IN_MIRRORS: &str = "mirrors in mirrors";
 
 /// Scenes that each ask for one ability.
 const ABILITIES: [(&str, &str); 4] = [
     ("near objects", "sphere-objects-1k"),
     ("touching objects", "sphere-touching"),
-    ("mirrors in mirrors", "bowl"),
+    (IN_MIRRORS, "bowl"),
     ("flat mirrors", "planar"),
 ];
 
 fn capabilities() -> Figure {
-    let techniques = ALL.map(|(_, technique)| match technique {
-        // What the published technique does about mirrors in mirrors.
-        "cubemap-trace" => "cubemap-trace(bounces=3)".to_owned(),
-        other => other.to_owned(),
-    });
+    let asked = |ability: &str, technique: &str| match technique.strip_suffix(')') {
+        // What cubemap tracing does about mirrors in mirrors.
+        Some(options) if ability == IN_MIRRORS && technique.starts_with("cubemap-trace") => {
+            format!("{options},bounces=3)")
+        }
+        _ => technique.to_owned(),
+    };
     let series = |(label, scene): &(&str, &str)| Series {
         label: (*label).to_owned(),
-        points: techniques
+        points: ALL
             .iter()
             .enumerate()
-            .map(|(x, technique)| point(x, scene, technique))
+            .map(|(x, (_, technique))| point(x, scene, asked(label, technique)))
             .collect(),
     };
     Figure {
@@ -112,29 +76,62 @@ fn capabilities() -> Figure {
         series: ABILITIES.iter().map(series).collect(),
         quantities: vec![
             Quantity::linear("right object, first bounce", AGREEMENT),
-            Quantity::linear(
-                "right object, mirrors in mirrors",
-                "against_full.object_agreement",
-            ),
-            Quantity::log("time to prepare (ms)", "time_ms.prepare"),
+            Quantity::linear("right object, mirrors in mirrors", FULL),
+            Quantity::log("time to prepare (ms)", PREPARE_MS),
             Quantity::log("time of a frame (ms)", FRAME_MS),
         ],
         quotes: Vec::new(),
-        analysis: refusals,
+        analysis: abilities,
     }
 }
 
-/// Why techniques do not apply.
-fn refusals(results: &Results<'_>) -> Vec<String> {
-    let points = results.series().iter().flat_map(|series| &series.points);
-    let mut sentences: Vec<String> = Vec::new();
-    for point in points {
-        let reason = results.row(point).and_then(|row| row.reason.clone());
-        if let Some(reason) = reason {
-            sentences.push(format!("{} on {}: {reason}.", point.technique, point.scene));
-        }
+/// The table in words, a technique a sentence: the right object where each ability is asked for, or
+/// why the technique does not apply there, and what it costs.
+fn abilities(results: &Results<'_>) -> Vec<String> {
+    let technique = |(place, (label, _)): (usize, &(&str, &str))| {
+        let abilities = results.series().iter().filter_map(|series| {
+            let point = series.points.get(place)?;
+            let row = results.row(point)?;
+            let what = match &row.reason {
+                Some(reason) => format!("does not apply ({reason})"),
+                None => percent(results.value(point, judged_by(&series.label))?),
+            };
+            Some(format!("{} {what}", series.label))
+        });
+        let abilities: Vec<_> = abilities.collect();
+        let points = results
+            .series()
+            .iter()
+            .filter_map(|series| series.points.get(place));
+        let known = points
+            .clone()
+            .filter_map(|point| results.value(point, FRAME_MS));
+        let frames: Vec<f64> = known.collect();
+        let prepared = points.filter_map(|point| results.value(point, PREPARE_MS));
+        let range = |values: &[f64]| {
+            let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+            let most = values.iter().copied().fold(0.0, f64::max);
+            format!("{} to {} ms", short(least), short(most))
+        };
+        (!frames.is_empty()).then(|| {
+            let prepared: Vec<f64> = prepared.collect();
+            format!(
+                "{label}: {}; a frame takes {}, preparing {}.",
+                abilities.join("; "),
+                range(&frames),
+                range(&prepared)
+            )
+        })
+    };
+    ALL.iter().enumerate().filter_map(technique).collect()
+}
+
+/// Mirrors in mirrors are held against the truth that has them.
+fn judged_by(ability: &str) -> &'static str {
+    match ability {
+        IN_MIRRORS => FULL,
+        _ => AGREEMENT,
     }
-    sentences
 }
 
 /// Ending and vertices of a family of scenes that differ only in how finely a square is cut.
@@ -180,7 +177,7 @@ fn growth() -> Figure {
         axis: Axis::log("vertices"),
         series: techniques.iter().map(series).collect(),
         quantities: vec![
-            Quantity::log("tracing pass (ms)", "time_ms.passes.trace"),
+            Quantity::log("tracing pass (ms)", TRACE_MS),
             Quantity::log("time of a frame (ms)", FRAME_MS),
             Quantity::linear("samples per mirror pixel", super::SAMPLES),
             Quantity::linear("share of pixels unresolved", UNRESOLVED),
@@ -190,9 +187,17 @@ fn growth() -> Figure {
             let series = results.series().iter();
             let sentences = series.filter_map(|series| {
                 let frame = power(&results.curve(&series.label, FRAME_MS))?;
-                let trace = power(&results.curve(&series.label, "time_ms.passes.trace"));
+                let trace = power(&results.curve(&series.label, TRACE_MS));
                 let trace = trace.map_or_else(String::new, |power| {
-                    format!("; its tracing pass as that to the power {}", short(power))
+                    let flat = if power.abs() < FLAT {
+                        "flat, as claimed"
+                    } else {
+                        "not flat, against the claim"
+                    };
+                    format!(
+                        "; its tracing pass as that to the power {}: {flat}",
+                        short(power)
+                    )
                 });
                 Some(format!(
                     "“{}”: a frame grows as the vertices to the power {}{trace}.",

@@ -1,0 +1,277 @@
+//! Sweeps: exactness and cost against the size of the faces, the number of maps, what drawing them
+//! anew costs, and how many rays are followed.
+
+use crate::plot::Axis;
+use crate::report::words::{percent, short};
+use crate::suites::results::power;
+use crate::suites::{Ask, Figure, Quantity, Quote, Results, Series};
+
+use super::options::{cubemap, figure, values};
+use super::{AGREEMENT, ANGLE, FRAME_MS, SAMPLES, UNRESOLVED, point, quantities};
+
+pub fn figures(scene: Option<&str>, scenes: &[&str]) -> Vec<Figure> {
+    vec![
+        faces(scenes),
+        objects(scenes),
+        rebuild(scenes),
+        bounces(scene),
+    ]
+}
+
+/// Sizes of faces and numbers of maps are swept with the criterion that does not err at
+/// discontinuities, and with the published one.
+const SWEPT: [(&str, &str); 2] = [
+    ("continuous sign changes", "sampling=texel,pyramid=sound"),
+    (
+        "any, as published",
+        "sampling=texel,pyramid=sound,accept=any",
+    ),
+];
+
+fn sweep(scenes: &[&str], xs: &[u32], option: &str, environment: bool) -> Vec<Series> {
+    let mut series = Vec::new();
+    for scene in scenes {
+        let points = |technique: &dyn Fn(u32) -> String| {
+            let points = xs.iter().map(|x| point(*x as usize, scene, technique(*x)));
+            points.collect()
+        };
+        for (label, options) in SWEPT {
+            series.push(Series {
+                label: format!("{scene}, {label}"),
+                points: points(&|x| cubemap(&format!("{option}={x},{options}"))),
+            });
+        }
+        if environment {
+            series.push(Series {
+                label: format!("{scene}, environment-map"),
+                points: points(&|x| format!("environment-map({option}={x})")),
+            });
+        }
+    }
+    series
+}
+
+fn faces(scenes: &[&str]) -> Figure {
+    Figure {
+        axis: Axis::log("texels a side of a face"),
+        series: sweep(scenes, &[32, 64, 128, 256, 512], "size", true),
+        quantities: quantities(),
+        analysis: |results| [rising(results), wrong(results)].concat(),
+        ..figure(
+            "faces",
+            "Face size",
+            "Číž 2017, Table 5.2",
+            "Exactness and cost against the size of the faces.",
+        )
+    }
+}
+
+fn objects(scenes: &[&str]) -> Figure {
+    Figure {
+        axis: Axis::linear("maps"),
+        series: sweep(scenes, &[1, 2, 3, 4], "objects", false),
+        quantities: quantities(),
+        analysis: |results| [rising(results), wrong(results)].concat(),
+        ..figure(
+            "objects",
+            "Number of maps",
+            "Číž 2017, section 3.8",
+            "Maps placed one after the other, each for the pixels that those before leave.",
+        )
+    }
+}
+
+fn rebuild(scenes: &[&str]) -> Figure {
+    let sizes = [64_u32, 128, 256, 512];
+    let series = |scene: &&str| Series {
+        label: (*scene).to_owned(),
+        points: sizes
+            .iter()
+            .map(|size| {
+                let options = format!("size={size},update=frame,pyramid=sound,sampling=texel");
+                point(*size as usize, scene, cubemap(&options))
+            })
+            .collect(),
+    };
+    Figure {
+        axis: Axis::log("texels a side of a face"),
+        series: scenes.iter().map(series).collect(),
+        quantities: vec![
+            Quantity::log("drawing the maps (ms)", MAPS_MS),
+            Quantity::log("building the pyramid (ms)", PYRAMID_MS),
+            Quantity::log("time of a frame (ms)", FRAME_MS),
+        ],
+        quotes: match scenes.contains(&QUOTED) {
+            true => rebuild_quotes(),
+            false => Vec::new(),
+        },
+        analysis: |results| {
+            let series = results.series().iter();
+            let sentences = series.filter_map(|series| {
+                let grows = |path| power(&results.curve(&series.label, path)).map(short);
+                Some(format!(
+                    "{}: drawing the maps grows as the side to the power {} (2.0 in the thesis), the \
+                     pyramid to the power {} (0.5): 2 is as the texels, less is a cost that does not \
+                     depend on them, such as that of the scene's triangles.",
+                    series.label,
+                    grows(MAPS_MS)?,
+                    grows(PYRAMID_MS)?
+                ))
+            });
+            sentences.collect()
+        },
+        ..figure(
+            "rebuild",
+            "Maps and pyramid drawn anew",
+            "Číž 2017, Table 5.2, last rows",
+            "Two maps drawn in every frame, as a scene in motion needs it.",
+        )
+    }
+}
+
+/// The scene that is nearest to the thesis's first one.
+const QUOTED: &str = "box";
+const MAPS_MS: &str = "time_ms.passes.maps";
+const PYRAMID_MS: &str = "time_ms.passes.pyramid";
+
+fn rebuild_quotes() -> Vec<Quote> {
+    let quote = |what, theirs, x, path| Quote {
+        what,
+        theirs,
+        on: "GT 540M",
+        ours: Some(Ask {
+            series: QUOTED,
+            x,
+            path,
+            unit: "ms",
+        }),
+    };
+    vec![
+        quote("maps, 128²", "8 ms", 128.0, MAPS_MS),
+        quote("maps, 256²", "35 ms", 256.0, MAPS_MS),
+        quote("maps, 512²", "136 ms", 512.0, MAPS_MS),
+        quote("pyramid, 128²", "7 ms", 128.0, PYRAMID_MS),
+        quote("pyramid, 256²", "10 ms", 256.0, PYRAMID_MS),
+        quote("pyramid, 512²", "14 ms", 512.0, PYRAMID_MS),
+    ]
+}
+
+const BOUNCES: [(&str, &str); 6] = [
+    ("1", "bounces=1"),
+    ("3", "bounces=3"),
+    ("8", "bounces=8"),
+    ("3, faces of 1024²", "bounces=3,size=1024"),
+    ("3, clear sample", "bounces=3,restart=clear"),
+    ("3, published bias", "bounces=3,bias=0.0005,accept=any"),
+];
+
+/// Places in that list.
+const ONE: usize = 0;
+const THREE: usize = 1;
+const EIGHT: usize = 2;
+const FINE: usize = 3;
+
+/// A share of pixels below which more rays count as no better.
+const DEEPER: f64 = 0.002;
+
+const FULL: &str = "against_full.object_agreement";
+const FULL_ANGLE: &str = "against_full.angular_error_deg.p50";
+
+fn bounces(scene: Option<&str>) -> Figure {
+    let scenes = [scene.unwrap_or("bowl")];
+    let figure = figure(
+        "bounces",
+        "Mirrors in mirrors",
+        "Číž 2017, section 3.3 and chapter 4",
+        "The maps show the mirror too, with its normal; a ray that meets it is reflected again. The \
+         published bias is a share of the ray; ours goes with the width of a texel and the angle; the \
+         alternative waits for a sample that is clear of the surface. The judge is the truth with \
+         mirrors in mirrors.",
+    );
+    Figure {
+        quantities: vec![
+            Quantity::linear("right object, mirrors in mirrors", FULL),
+            Quantity::linear("right object, first bounce", AGREEMENT),
+            Quantity::linear("share of pixels unresolved", UNRESOLVED),
+            Quantity::log("samples per mirror pixel", SAMPLES),
+            Quantity::log("time of a frame (ms)", FRAME_MS),
+        ],
+        analysis: limits,
+        ..values(figure, "rays", &BOUNCES, &scenes)
+    }
+}
+
+/// What keeps several rays from the truth with mirrors in mirrors.
+fn limits(results: &Results<'_>) -> Vec<String> {
+    let series = results.series().iter();
+    let sentences = series.filter_map(|series| {
+        let value = |place: usize, path| results.value(series.points.get(place)?, path);
+        let full = |place| value(place, FULL).map(percent);
+        let open = value(THREE, UNRESOLVED).unwrap_or(0.0);
+        let deeper = match value(EIGHT, FULL)? - value(THREE, FULL)? < DEEPER {
+            true => "more rays bring nothing",
+            false => "more rays help",
+        };
+        Some(format!(
+            "{}: one ray shows the right object on {} of the pixels, three on {}, eight on {}: {deeper}. \
+             Faces of 1024² reach {} and take the median angle from {}° to {}° (a second ray starts with \
+             the distance and normal of a texel). With three rays {} of the pixels are unresolved: no \
+             map sees what they meet.",
+            series.label,
+            full(ONE)?,
+            full(THREE)?,
+            full(EIGHT)?,
+            full(FINE)?,
+            short(value(THREE, FULL_ANGLE)?),
+            short(value(FINE, FULL_ANGLE)?),
+            percent(open),
+        ))
+    });
+    sentences.collect()
+}
+
+/// How agreement and angle go from the first place to the last.
+fn rising(results: &Results<'_>) -> Vec<String> {
+    let series = results.series().iter();
+    let sentences = series.filter_map(|series| {
+        let ends = |path| {
+            let curve = results.curve(&series.label, path);
+            Some((curve.first()?.1, curve.last()?.1))
+        };
+        let (low, high) = ends(AGREEMENT)?;
+        let (coarse, fine) = ends(ANGLE)?;
+        Some(format!(
+            "{}: from the first to the last place the right object goes from {} to {} of the pixels, \
+             the median angle from {}° to {}°.",
+            series.label,
+            percent(low),
+            percent(high),
+            short(coarse),
+            short(fine)
+        ))
+    });
+    sentences.collect()
+}
+
+/// What keeps the last place of each series from showing the right object everywhere.
+fn wrong(results: &Results<'_>) -> Vec<String> {
+    let series = results.series().iter();
+    let sentences = series.filter_map(|series| {
+        let point = series.points.last()?;
+        let value = |path| results.value(point, path);
+        let rim = value("mismatch.boundary")?;
+        let inside = value("mismatch.interior")?;
+        let open = value(UNRESOLVED).unwrap_or(0.0);
+        Some(format!(
+            "{}: what keeps the last place below 1 are {} of the pixels beside the edge of another \
+             object, where a texel is wider than a pixel, and {} elsewhere; {} are unresolved, the ray \
+             being hidden from every map, {} show an object in place of the background.",
+            series.label,
+            percent(rim),
+            percent(inside),
+            percent(open),
+            percent(value("coverage.extra")?)
+        ))
+    });
+    sentences.collect()
+}

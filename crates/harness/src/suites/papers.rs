@@ -1,0 +1,193 @@
+//! `catoptric bench papers`: the techniques of all four papers side by side, in one table and, scene
+//! by scene, error against time.
+
+use crate::plot::{Axis, Scale};
+use crate::report::words::percent;
+
+use super::{Figure, Point, Quantity, Results, Series, Suite};
+
+/// The suite.
+pub const SUITE: Suite = Suite {
+    name: "papers",
+    title: "The four papers side by side",
+    why: "Which technique of which paper is exact where, at what cost?",
+    figures,
+    pictures: None,
+    timing_s: 120.0,
+};
+
+/// Small enough that all of them can be measured on a software adapter.
+const SIZE: [u32; 2] = [240, 180];
+
+const FRAME_MS: &str = "time_ms.frame.median";
+const ANGLE: &str = "angular_error_deg.p50";
+const AGREEMENT: &str = "object_agreement";
+const FLIP: &str = "color.flip";
+
+/// What all are held against.
+const CONTROL: &str = "ray-trace";
+
+/// Label and technique, paper by paper: Szabo's searches and refinements, Estalella's as the paper
+/// runs them, what games use, Číž's as published and as we correct it, and the control.
+const TECHNIQUES: [(&str, &str); 12] = [
+    ("linear", "linear"),
+    ("ray hierarchy", "ray-hierarchy(repair=enlarge)"),
+    ("linear+full", "linear+full(level=3)"),
+    ("linear+adaptive", "linear+adaptive"),
+    (
+        "reflector cubemap",
+        "reflector-cubemap(hidden=extend,depth=virtual)",
+    ),
+    (
+        "reflector cubemap+grid",
+        "reflector-cubemap(hidden=extend,depth=virtual)+grid",
+    ),
+    ("environment map", "environment-map"),
+    ("environment map, redrawn", "environment-map(update=frame)"),
+    ("planar", "planar"),
+    ("cubemap trace, published", "cubemap-trace(accept=any)"),
+    (
+        "cubemap trace",
+        "cubemap-trace(sampling=texel,pyramid=sound)",
+    ),
+    ("ray trace (control)", CONTROL),
+];
+
+/// Scenes of all four papers.
+const SCENES: [&str; 8] = [
+    "sphere-table",
+    "sphere-objects-1k",
+    "ellipsoid",
+    "bowl",
+    "planar",
+    "kitchen",
+    "box",
+    "room",
+];
+
+fn figures(scene: Option<&str>) -> Vec<Figure> {
+    let Some(scene) = scene else {
+        let scatters = SCENES.map(|scene| scatter(scene, scene));
+        return [table(&SCENES)].into_iter().chain(scatters).collect();
+    };
+    vec![table(&[scene]), scatter("scatter", scene)]
+}
+
+fn point(x: usize, scene: &str, technique: &str) -> Point {
+    Point {
+        resolution: Some(SIZE),
+        ..Point::new(x as f64, scene, technique)
+    }
+}
+
+fn quantities() -> Vec<Quantity> {
+    vec![
+        Quantity::log("angular error, median (°)", ANGLE),
+        Quantity::linear("share of pixels with the right object", AGREEMENT),
+        Quantity::linear("FLIP", FLIP),
+    ]
+}
+
+fn table(scenes: &[&str]) -> Figure {
+    let series = |scene: &&str| Series {
+        label: (*scene).to_owned(),
+        points: TECHNIQUES
+            .iter()
+            .enumerate()
+            .map(|(x, (_, technique))| point(x, scene, technique))
+            .collect(),
+    };
+    let labels = TECHNIQUES.map(|(label, _)| label.to_owned());
+    Figure {
+        anchor: "all",
+        title: "All techniques".to_owned(),
+        after: "all four papers",
+        question:
+            "The same scenes by every technique. Where one has no point it does not apply, for \
+                   the reason given below."
+                .to_owned(),
+        axis: Axis {
+            label: "technique".to_owned(),
+            scale: Scale::Names(labels.to_vec()),
+        },
+        series: scenes.iter().map(series).collect(),
+        quantities: [
+            quantities(),
+            vec![Quantity::log("time of a frame (ms)", FRAME_MS)],
+        ]
+        .concat(),
+        quotes: Vec::new(),
+        analysis: |results| {
+            results
+                .series()
+                .iter()
+                .filter_map(|one| best(results, one))
+                .collect()
+        },
+    }
+}
+
+fn best(results: &Results<'_>, series: &Series) -> Option<String> {
+    let points = series.points.iter();
+    let points = points.filter(|point| point.technique != CONTROL);
+    let known = points.filter_map(|point| Some((results.value(point, AGREEMENT)?, point)));
+    let (agreement, point) = known.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some(format!(
+        "{}: of all but the control, {} has the right object most often, on {} of the mirror pixels.",
+        series.label,
+        point.technique,
+        percent(agreement)
+    ))
+}
+
+fn scatter(anchor: &'static str, scene: &str) -> Figure {
+    let series = |(label, technique): &(&str, &str)| Series {
+        label: (*label).to_owned(),
+        points: vec![Point {
+            along: Some(FRAME_MS),
+            ..point(0, scene, technique)
+        }],
+    };
+    Figure {
+        anchor,
+        title: format!("Error against time: {scene}"),
+        after: "all four papers",
+        question: "Better is further down and to the left (up for shares). The control traces the \
+                   reference's rays on the GPU: what it is off by is the floor of the measurement."
+            .to_owned(),
+        axis: Axis::log("time of a frame (ms)"),
+        series: TECHNIQUES.iter().map(series).collect(),
+        quantities: quantities(),
+        quotes: Vec::new(),
+        analysis: |results| front(results).into_iter().collect(),
+    }
+}
+
+/// Which techniques no other one beats in both time and angle.
+fn front(results: &Results<'_>) -> Option<String> {
+    let series = results.series().iter();
+    let known = series.filter_map(|series| {
+        let point = series.points.first()?;
+        let is_control = point.technique == CONTROL;
+        let place = (
+            results.value(point, FRAME_MS)?,
+            results.value(point, ANGLE)?,
+        );
+        (!is_control).then_some((series.label.as_str(), place))
+    });
+    let known: Vec<_> = known.collect();
+    let beaten = |(time, angle): (f64, f64)| {
+        let mut others = known.iter().map(|(_, place)| *place);
+        others.any(|(t, a)| t <= time && a <= angle && (t < time || a < angle))
+    };
+    let mut left: Vec<_> = known.iter().filter(|(_, place)| !beaten(*place)).collect();
+    left.sort_by(|a, b| a.1.0.total_cmp(&b.1.0));
+    let names: Vec<&str> = left.iter().map(|(label, _)| *label).collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "From the fastest to the most exact, no other technique beats in both time and median \
+             angle: {}.",
+            names.join("; ")
+        )
+    })
+}

@@ -293,16 +293,18 @@ impl Spec {
     /// # Errors
     /// There is no such option, or it does not take the value.
     pub fn with(&self, option: &str, value: &str) -> Result<Self, SpecError> {
-        let (first, refinement) = match self.written.split_once('+') {
-            Some((first, refinement)) => (first, format!("+{refinement}")),
-            None => (self.written.as_str(), String::new()),
-        };
-        // Of an option that is given twice the last holds.
-        let first = match first.strip_suffix(')') {
-            Some(open) => format!("{open},{option}={value})"),
-            None => format!("{first}({option}={value})"),
-        };
-        parse(&(first + &refinement))
+        let others = (self.options.values.iter()).filter(|(known, _)| *known != option);
+        let mut values: Vec<_> = others
+            .map(|(known, value)| format!("{known}={value}"))
+            .collect();
+        values.push(format!("{option}={value}"));
+        let refinement = self.refinement.iter().map(Options::to_string);
+        let refinement: String = refinement.collect();
+        parse(&format!(
+            "{}({}){refinement}",
+            self.name(),
+            values.join(",")
+        ))
     }
 
     /// The refinement with its options.

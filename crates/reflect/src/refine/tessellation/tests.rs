@@ -236,23 +236,6 @@ fn a_previous_frame_helps_the_scenes_own_vertices_alone() {
 }
 
 #[test]
-fn triangles_with_hidden_corners_count_where_those_are_extended() {
-    let Some(gpu) = gpu_or_skip() else { return };
-    // Objects touch the mirror: triangles reach beyond the tangent planes under them.
-    let scene = scene("sphere-touching");
-    let [dropped, extended] = ["linear", "linear(hidden=extend)"].map(|search| {
-        let technique = format!("{search}+adaptive(level=3,threshold=0.0003)");
-        let made = Tessellated::new(&gpu, &scene, &technique, SIZE);
-        let (search, stage) = (made.searched.search.as_ref(), &made.searched.stage);
-        let junctions = made.tessellation.t_junctions(&gpu, stage, search);
-        assert!(junctions.is_some_and(|count| count > 0), "{technique}");
-        let leaves = made.leaves(&gpu, 0);
-        leaves.iter().filter(|leaf| leaf.drawn).count()
-    });
-    assert!(dropped < extended, "{dropped} {extended}");
-}
-
-#[test]
 fn neighbours_that_split_differently_meet_in_t_junctions() {
     let Some(gpu) = gpu_or_skip() else { return };
     let scene = scene("sphere-square");

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use clap::builder::{OsStringValueParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 /// How exact, how fast and how steady is a real-time reflection on a curved mirror?
@@ -27,7 +28,8 @@ pub struct Common {
     #[arg(long, global = true, value_name = "WxH", value_parser = resolution)]
     pub resolution: Option<[u32; 2]>,
     /// Folder of models that scenes name but do not bring along
-    #[arg(long, global = true, value_name = "DIR", env = "CATOPTRIC_MODELS")]
+    #[arg(long, global = true, value_name = "DIR", env = "CATOPTRIC_MODELS",
+          value_parser = OsStringValueParser::new().map(PathBuf::from))]
     pub models: Option<PathBuf>,
     /// Graphics adapter, by a part of its name (`list adapters`)
     #[arg(long, global = true, value_name = "NAME")]

@@ -326,7 +326,14 @@ fn frames_give_jitter_and_a_still_scene_has_none() {
     if !gpu_or_skip() {
         return;
     }
-    let args = ["compare", "sphere-table", "-t", "linear(start=previous)"];
+    // Something is said to move, and goes nowhere.
+    let still = "\n[motion]\nframes = 3\n[[motion.move]]\nname = \"ball\"\ntranslate = [0, 0, 0]\n";
+    let text = include_str!("../../../scenes/sphere-table.toml").to_owned() + still;
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("still.toml");
+    std::fs::write(&path, text).expect("a scene file");
+    let scene = path.to_string_lossy();
+    let args = ["compare", &scene, "-t", "linear(start=previous)"];
     let more = ["--frames", "3", "--time-budget", "0.1", "--format", "json"];
     let output = catoptric(&[args.as_slice(), &more, SIZE.as_slice()].concat());
     assert_eq!(code(&output), 0, "{}", stderr(&output));
@@ -382,7 +389,7 @@ fn a_scene_without_motion_has_no_frames_to_follow() {
     if !gpu_or_skip() {
         return;
     }
-    let args = ["compare", "sphere-square", "-t", "linear", "--frames", "3"];
+    let args = ["compare", "sphere-table", "-t", "linear", "--frames", "3"];
     let more = ["--time-budget", "0.05", "--format", "json"];
     let output = catoptric(&[args.as_slice(), &more, SIZE.as_slice()].concat());
     assert_eq!(code(&output), 0, "{}", stderr(&output));

@@ -70,6 +70,11 @@ impl Channels {
         &self.names
     }
 
+    /// Full names of all channels, in alphabetical order.
+    pub fn channel_names(&self) -> impl Iterator<Item = &str> {
+        self.channels.keys().map(String::as_str)
+    }
+
     /// True where a channel's name begins so.
     pub fn any(&self, prefix: &str) -> bool {
         self.channels.keys().any(|name| name.starts_with(prefix))

@@ -2,7 +2,7 @@
 //!
 //! Frame 0 is the scene as written. Each technique walks through the frames twice: once with all
 //! layers, where each vertex' error (found − true, in pixels) is followed from frame to frame, and
-//! once as an application would draw, to be timed. Where something is carried from one frame to
+//! once as an application would draw, to be timed, between two times as many frames at rest. Where something is carried from one frame to
 //! the next (`start=previous`), it is so in both.
 
 use catoptric_frame::Frame;
@@ -23,6 +23,8 @@ pub struct Steadiness {
     pub points: Temporal,
     /// Median GPU time of a moving frame in milliseconds; `None` without a usable clock.
     pub frame_ms: Option<f64>,
+    /// The same of frames at rest, timed right before and after.
+    pub still_ms: Option<f64>,
     /// Mean evaluations a search, from the second frame on.
     pub evaluations: Option<f64>,
     /// Mean steps a search, from the second frame on.
@@ -55,15 +57,23 @@ pub fn follow(
             steps.extend(output.work.steps);
         }
     }
-    let mut times = Vec::new();
-    for frame in 0..errors.len() as u32 {
-        prepared
-            .update(&scene.at(frame))
-            .map_err(|error| failed(&error))?;
-        let time = prepared.time_frame().map_err(|error| failed(&error))?;
-        times.push(time.gpu_ms);
-    }
-    let times: Option<Vec<f64>> = times.into_iter().collect();
+    let mut timed = |moving: bool| -> Result<Vec<Option<f64>>, Blank> {
+        let mut times = Vec::new();
+        for frame in 0..errors.len() as u32 {
+            let posed = scene.at(if moving { frame } else { 0 });
+            prepared.update(&posed).map_err(|error| failed(&error))?;
+            let time = prepared.time_frame().map_err(|error| failed(&error))?;
+            times.push(time.gpu_ms);
+        }
+        Ok(times)
+    };
+    let mut still = timed(false)?;
+    let moving = timed(true)?;
+    still.extend(timed(false)?);
+    let median = |times: Vec<Option<f64>>| {
+        let times: Option<Vec<f64>> = times.into_iter().collect();
+        Some(Timing::of(&times?)?.median)
+    };
     prepared.update(scene).map_err(|error| failed(&error))?;
     let mean = |values: &[f64]| {
         let sum: f64 = values.iter().sum();
@@ -71,7 +81,8 @@ pub fn follow(
     };
     Ok(Some(Steadiness {
         points: temporal(&errors),
-        frame_ms: times.and_then(|times| Some(Timing::of(&times)?.median)),
+        frame_ms: median(moving),
+        still_ms: median(still),
         evaluations: mean(&evaluations),
         steps: mean(&steps),
     }))

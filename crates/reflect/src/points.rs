@@ -125,12 +125,11 @@ impl Efforts {
         self.node_tests += other.node_tests;
     }
 
-    /// Means per point searched for: node tests in place of steps where the search goes through a
-    /// hierarchy.
+    /// Means per point searched for; node tests only where the search goes through a hierarchy.
     pub(crate) fn mean(&self, hierarchy: bool) -> Work {
         let mean = |total: u64| (self.searched > 0).then(|| total as f64 / self.searched as f64);
         Work {
-            steps: mean(self.steps).filter(|_| !hierarchy),
+            steps: mean(self.steps),
             evaluations: mean(self.evaluations),
             node_tests: mean(self.node_tests).filter(|_| hierarchy),
             ..Work::default()

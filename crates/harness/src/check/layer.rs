@@ -54,7 +54,7 @@ impl Layer {
             p50: None,
             p999: None,
             max: None,
-            limit: format!("≥ {} %", least * 100.0),
+            limit: format!("≥ {} %", hundredths(least)),
             passed: enough(agreeing, values.len(), least),
             map: (masked(&differs, mask), 1.0),
         }
@@ -100,8 +100,8 @@ impl Layer {
             p50: percentile(&differences, 0.5),
             p999: percentile(&differences, 0.999),
             max: differences.last().copied(),
-            limit: format!("≥ {} % within {within:.1e}", least * 100.0),
-            passed: enough(agreeing, pixels, least),
+            limit: format!("≥ {} % within {within:.1e}", hundredths(least)),
+            passed: enough(agreeing, pixels, least) && differences.iter().all(|off| !off.is_nan()),
             map: (masked(beyond, mask), 100.0 * within as f32),
         }
     }
@@ -140,6 +140,11 @@ impl Layer {
             map: (masked(beyond, mask), 100.0 * within as f32),
         }
     }
+}
+
+/// A share in per cent, to a hundredth.
+fn hundredths(share: f64) -> f64 {
+    (1e4 * share).round() / 100.0
 }
 
 /// Values within a mask, ascending, NaN last.

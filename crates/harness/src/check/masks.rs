@@ -20,8 +20,8 @@ pub struct Masks {
     pub mirror_more: Vec<bool>,
     /// Both meet the same surface after one reflection.
     pub after_one: Vec<bool>,
-    /// Likewise after as many reflections, more than one.
-    pub after_more: Vec<bool>,
+    /// Likewise after two.
+    pub after_two: Vec<bool>,
     /// No reflection.
     pub direct: Vec<bool>,
     /// One reflection, and not counted apart.
@@ -78,7 +78,7 @@ impl Masks {
             mirror_once: mask(&|at| mirror(at) && reflections(at) <= 1),
             mirror_more: mask(&|at| mirror(at) && reflections(at) > 1),
             after_one: mask(&|at| same_reflected(at) && reflections(at) == 1),
-            after_more: mask(&|at| same_reflected(at) && reflections(at) > 1),
+            after_two: mask(&|at| same_reflected(at) && reflections(at) == 2),
             direct: mask(&|at| !below(at) && reflections(at) == 0),
             once: mask(&|at| !below(at) && reflections(at) == 1),
             shallow: mask(&|at| !below(at) && reflections(at) <= 1),

@@ -200,22 +200,20 @@ pub fn measure(channels: &Channels, ours: &Ours) -> Result<Measured, FrameError>
     let limit = limits::reflected(ours.start).scaled(scale);
     if let Some(position) = channels.positions("reflected.position.")? {
         let limit = limit.widened(rounding(channels, "reflected.position.", extent(&position)));
-        let mut off = apart(&position, &reflected.position);
+        let off = apart(&position, &reflected.position);
         layers.push(Layer::distance(
             "reflected.position",
             &masks.after_one,
             &off,
             limit,
         ));
-        if masks.after_more.contains(&true) {
-            for (off, bounces) in off.pixels_mut().iter_mut().zip(masks.bounces.pixels()) {
-                *off /= limits::MAGNIFICATION.powi(*bounces as i32 - 1) as f32;
-            }
+        // After more than two, differences are magnified beyond any limit that would say something.
+        if masks.after_two.contains(&true) {
             layers.push(Layer::distance(
-                "reflected.position 2+",
-                &masks.after_more,
+                "reflected.position 2",
+                &masks.after_two,
                 &off,
-                limit,
+                limit.scaled(limits::MAGNIFICATION),
             ));
         }
     }

@@ -15,7 +15,7 @@ use catoptric_reference::{RayStart, Truth};
 use serde_json::{Value, json};
 
 use crate::cli::{CheckArgs, Common, Format};
-use crate::exit::Outcome;
+use crate::exit::{Outcome, bad_input};
 use crate::print;
 use crate::progress::Progress;
 use crate::table::Table;
@@ -85,6 +85,13 @@ fn verdict(case: &Case, start: RayStart) -> anyhow::Result<Verdict<'_>> {
     for truth in &case.truths {
         let ours = Ours::trace(&case.scene, case.channels.size(), *truth, start, case.side)?;
         let measured = measure::measure(&case.channels, &ours)?;
+        if measured.layers.is_empty() {
+            return Err(bad_input(format!(
+                "{}: no layer that could be compared; it has {}",
+                case.name,
+                case.channels.channel_names().collect::<Vec<_>>().join(", ")
+            )));
+        }
         let passed = measured.passed();
         let nearer = best
             .as_ref()

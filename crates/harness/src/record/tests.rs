@@ -116,6 +116,7 @@ pub fn measured(scene: &str, technique: &str) -> Record {
                 jumps: Some(0.0),
             },
             frame_ms: Some(1.0),
+            still_ms: Some(1.0),
             evaluations: Some(5.0),
             steps: Some(1.0),
         }),

@@ -294,7 +294,11 @@ pub const CONTROL: &str = "ray-trace";
 /// What the control does not match: less than that, a difference between a technique and the
 /// truth says nothing. `None` where the control was not measured.
 pub fn noise_floor(rows: &[Record]) -> Option<String> {
-    let control = || rows.iter().filter(|row| row.technique == CONTROL);
+    let is_control = |row: &&Record| {
+        let name = row.technique.as_str();
+        name == CONTROL || name.starts_with("ray-trace(") && !name.contains("gbuffer=mesh")
+    };
+    let control = || rows.iter().filter(is_control);
     let agreement = control().filter_map(|row| row.object_agreement);
     let agreement = agreement.reduce(f64::min)?;
     let angle = control().filter_map(|row| Some(row.angular_error_deg?.p99));

@@ -11,6 +11,7 @@ mod claims;
 mod pictures;
 
 use crate::plot::{Axis, Scale};
+use crate::report::words::CONTROL;
 
 use super::{Ask, Figure, Point, Quantity, Quote, Results, Series, Suite};
 
@@ -73,6 +74,7 @@ const FRAMES: u32 = 20;
 const SEARCH_MS: &str = "time_ms.passes.search";
 const FRAME_MS: &str = "time_ms.frame.median";
 const MOVING_MS: &str = "temporal.frame_ms";
+const STILL_MS: &str = "temporal.still_ms";
 const EVALUATIONS: &str = "work.evaluations";
 const NODE_TESTS: &str = "work.node_tests";
 const STEPS: &str = "work.steps";
@@ -129,6 +131,15 @@ fn series(scenes: &[(&str, &str)], point: impl Fn(Point) -> Point) -> Vec<Series
     SEARCHES.iter().map(series).collect()
 }
 
+/// What an application would use instead, and the harness's own noise.
+fn control(scenes: &[(&str, &str)]) -> Series {
+    let point = |(x, (_, scene)): (usize, &(&str, &str))| Point::new(x as f64, *scene, CONTROL);
+    Series {
+        label: "rays traced (control)".to_owned(),
+        points: scenes.iter().enumerate().map(point).collect(),
+    }
+}
+
 fn names(scenes: &[(&str, &str)]) -> Axis {
     Axis {
         label: "scene".to_owned(),
@@ -148,7 +159,9 @@ fn objects(scenes: &[(&str, &str)], quotes: Vec<Quote>, analysis: Analysis) -> F
                    searched again in enlarged cones, or answered at a higher level."
                 .to_owned(),
         axis: names(scenes),
-        series: series(scenes, Point::shown),
+        series: (series(scenes, Point::shown).into_iter())
+            .chain([control(scenes)])
+            .collect(),
         quantities: quantities(Quantity::linear),
         quotes,
         analysis,
@@ -295,7 +308,7 @@ fn motion(scenes: &[(&str, &str)]) -> Figure {
             Quantity::linear("largest jitter (px)", JITTER_MAX),
             Quantity::linear("share of jumps", JUMPS),
             Quantity::linear("time of a moving frame (ms)", MOVING_MS),
-            Quantity::linear("time of a still frame (ms)", FRAME_MS),
+            Quantity::linear("time of a still frame (ms)", STILL_MS),
             Quantity::linear("steps per vertex, from the second frame", "temporal.steps"),
         ],
         quotes: Vec::new(),

@@ -13,6 +13,8 @@ use crate::suites::{Picture, Studio};
 
 /// Scene of the pictures where the user names none.
 const SCENE: &str = "sphere-objects-1k";
+/// Scene of the maps then: on a sphere around the origin, positions and normals look the same.
+const SCENE_OF_MAPS: &str = "ellipsoid";
 
 /// Both searches, and what their path is called.
 const PATHS: [(&str, &str); 2] = [
@@ -33,7 +35,18 @@ pub fn make(studio: &Studio<'_>) -> anyhow::Result<Vec<Picture>> {
             Err(_) => return Ok(Vec::new()),
         }
     }
-    let mut pictures = maps(studio, &scene, &outputs[0])?;
+    let mut pictures = match studio.scene {
+        Some(_) => maps(studio, &scene, &outputs[0])?,
+        None => {
+            let options = crate::setup::load_options(studio.common);
+            let scene = catoptric_scene::open(SCENE_OF_MAPS, &options)?;
+            let spec = crate::setup::parse(PATHS[0].0)?;
+            match crate::pipeline::render(&studio.setup.gpu, &spec, &scene) {
+                Ok(rendered) => maps(studio, &scene, &rendered.output)?,
+                Err(_) => Vec::new(),
+            }
+        }
+    };
     if let Some((index, mirror)) = example(&scene, &outputs) {
         for ((technique, kind), output) in PATHS.into_iter().zip(&outputs) {
             let result = output.vertices.iter().flatten().nth(index);
@@ -151,7 +164,7 @@ fn path(
         scene.name,
         count(visits.len() as u64),
         match kind {
-            "walk" => "A dot is a texel.",
+            "walk" => "The line goes from texel to texel.",
             _ => "A dot is a sphere's centre, from blue at the top level to yellow at the pixels.",
         }
     );

@@ -4,7 +4,8 @@
 //! (all layers and counters) or `time_frame` (what an application would draw).
 //!
 //! Where things go:
-//! * a new search: a file in `search/`, a shader of the same name, a line in `registry.rs`;
+//! * a new search: a file in `search/`, a shader of the same name, an entry in
+//!   `registry/`;
 //! * a new refinement: likewise in `refine/`;
 //! * a new technique of image order: likewise in `image_order/`.
 //!

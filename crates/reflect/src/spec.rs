@@ -32,7 +32,7 @@ pub enum SpecError {
         /// The nearest name, as a question, or all there are.
         hint: String,
     },
-    /// A technique of the papers that is not built yet.
+    /// A technique that is listed and not built yet.
     #[error("`{name}` is not available: {reason}")]
     Unavailable {
         /// Its name.

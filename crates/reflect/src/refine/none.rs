@@ -14,7 +14,7 @@ use crate::search::Search;
 use crate::stage::Stage;
 use crate::technique::Variant;
 
-struct None {
+struct Unrefined {
     raster: Raster,
     originals: Originals,
     found: Vec<wgpu::BindGroup>,
@@ -35,14 +35,14 @@ pub(crate) fn make(context: &Context<'_>) -> Result<Box<dyn Refine>, ReflectErro
         let found = batch.found.as_entire_binding();
         group(gpu, &raster.own_layout, &[found])
     });
-    Ok(Box::new(None {
+    Ok(Box::new(Unrefined {
         found: found.collect(),
         raster,
         originals,
     }))
 }
 
-impl Refine for None {
+impl Refine for Unrefined {
     fn update(&mut self, _gpu: &Gpu, _stage: &Stage) {}
 
     fn begin_frame(&mut self, gpu: &Gpu, stage: &Stage, warm: bool) {

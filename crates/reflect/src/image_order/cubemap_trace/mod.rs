@@ -97,8 +97,8 @@ pub(crate) fn objection(options: &Options, scene: &Scene) -> Option<String> {
 fn trace_uniform(options: &Options, scene: &Scene) -> TraceUniform {
     let length = options.number("length") as f32 * diagonal(scene);
     let step = options.number("step") as f32;
-    let texels = options.whole("size").ilog2();
-    let finest = options.whole("to").min(texels - 1);
+    let levels = options.whole("size").ilog2();
+    let finest = options.whole("to").min(levels - 1);
     TraceUniform {
         length,
         step,

@@ -2,7 +2,7 @@
 //!
 //! Frame 0 is the scene as written. Each technique walks through the frames twice: once with all
 //! layers, where each vertex' error (found − true, in pixels) is followed from frame to frame, and
-//! once as an application would draw, to be timed, between two times as many frames at rest. Where something is carried from one frame to
+//! once as an application would draw, to be timed, between as many frames at rest. Where something is carried from one frame to
 //! the next (`start=previous`), it is so in both.
 
 use catoptric_frame::Frame;
@@ -57,9 +57,9 @@ pub fn follow(
             steps.extend(output.work.steps);
         }
     }
-    let mut timed = |moving: bool| -> Result<Vec<Option<f64>>, Blank> {
+    let mut timed = |moving: bool, frames: usize| -> Result<Vec<Option<f64>>, Blank> {
         let mut times = Vec::new();
-        for frame in 0..errors.len() as u32 {
+        for frame in 0..frames as u32 {
             let posed = scene.at(if moving { frame } else { 0 });
             prepared.update(&posed).map_err(|error| failed(&error))?;
             let time = prepared.time_frame().map_err(|error| failed(&error))?;
@@ -67,9 +67,10 @@ pub fn follow(
         }
         Ok(times)
     };
-    let mut still = timed(false)?;
-    let moving = timed(true)?;
-    still.extend(timed(false)?);
+    let before = errors.len() / 2;
+    let mut still = timed(false, before)?;
+    let moving = timed(true, errors.len())?;
+    still.extend(timed(false, errors.len() - before)?);
     let median = |times: Vec<Option<f64>>| {
         let times: Option<Vec<f64>> = times.into_iter().collect();
         Some(Timing::of(&times?)?.median)

@@ -24,7 +24,7 @@ pub const SUITE: Suite = Suite {
           that proposed both searches, repeated.",
     figures,
     pictures: Some(pictures::make),
-    timing_s: 150.0,
+    timing_s: 110.0,
 };
 
 const LINEAR: &str = "linear";
@@ -69,7 +69,7 @@ const MOVING: [(&str, &str); 3] = [
 ];
 
 /// Frames of the path that are followed.
-const FRAMES: u32 = 20;
+const FRAMES: u32 = 12;
 
 const SEARCH_MS: &str = "time_ms.passes.search";
 const FRAME_MS: &str = "time_ms.frame.median";

@@ -1,4 +1,4 @@
-//! Every technique, in one table: adding one adds an entry here and its options to [`options`].
+//! Every technique, in one table: adding one adds an entry here and its options to `options.rs`.
 
 mod options;
 

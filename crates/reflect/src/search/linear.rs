@@ -1,19 +1,8 @@
 //! Linear screen-space search (Szabo 2013, Alg. 3.2 and 3.3; Szabo CESCG, Alg. 2).
 
-use super::start::Starts;
-use super::{Context, Pipelines, Search};
+use super::start::FromStart;
+use super::{Context, Search};
 use crate::ReflectError;
-use crate::gpu::Gpu;
-use crate::points::Points;
-use crate::recorder::Recorder;
-use crate::stage::Stage;
-use crate::technique::Variant;
-
-struct Linear {
-    from_previous: bool,
-    starts: Starts,
-    pipelines: Pipelines,
-}
 
 pub(crate) fn make(context: &Context<'_>) -> Result<Box<dyn Search>, ReflectError> {
     let options = context.options;
@@ -27,42 +16,7 @@ pub(crate) fn make(context: &Context<'_>) -> Result<Box<dyn Search>, ReflectErro
     if options.is("hidden", "extend") {
         features.push("extend");
     }
-    let starts = Starts::new(context)?;
-    Ok(Box::new(Linear {
-        from_previous: options.is("start", "previous"),
-        pipelines: Pipelines::new(context, "linear", &features, &starts.layout)?,
-        starts,
-    }))
-}
-
-impl Search for Linear {
-    fn update(&mut self, gpu: &Gpu, stage: &Stage) {
-        self.starts.update(gpu, stage);
-    }
-
-    fn begin_frame(&mut self, gpu: &Gpu) {
-        self.starts.begin_frame(gpu);
-    }
-
-    fn record_build(&self, frame: &mut Recorder<'_>, stage: &Stage) {
-        self.starts.record(frame, stage);
-    }
-
-    fn record_search(
-        &self,
-        frame: &mut Recorder<'_>,
-        stage: &Stage,
-        mirror: usize,
-        points: &Points,
-        variant: Variant,
-    ) {
-        let own = &self.starts.groups[mirror];
-        (self.pipelines).record(frame, (stage, mirror), points, own, variant);
-    }
-
-    fn uses_previous(&self) -> bool {
-        self.from_previous
-    }
+    Ok(Box::new(FromStart::new(context, "linear", &features)?))
 }
 
 #[cfg(test)]

@@ -1,25 +1,81 @@
-//! Where a search on the G-buffer starts: the texel of a mirror that is nearest to the projection
-//! of its centre, or of its bounding box, found by the pass `start` (`start.wesl`).
+//! Searches on the G-buffer that start at one texel for all vertices: the mirror's texel nearest to
+//! the projection of its centre, or of its bounding box, found by the pass `start` (`start.wesl`).
 
 use catoptric_scene::{Mirror, View};
 use glam::{DVec2, Vec2};
 
-use super::Context;
+use super::{Context, Pipelines, Search};
 use crate::ReflectError;
 use crate::gpu::Gpu;
+use crate::points::Points;
 use crate::recorder::Recorder;
 use crate::resources::{Slot, compute, group, layout, module, set_uniform, storage_bytes, uniform};
 use crate::stage::Stage;
+use crate::technique::Variant;
 
 /// Side of the pass's workgroups, in texels.
 const GROUP: u32 = 8;
 
+/// A search by a shader that reads the start texel as its group 3.
+pub(super) struct FromStart {
+    /// Each vertex starts at its last answer instead, where it has one.
+    from_previous: bool,
+    starts: Starts,
+    pipelines: Pipelines,
+}
+
+impl FromStart {
+    /// Of a program with an entry point `search`.
+    pub(super) fn new(
+        context: &Context<'_>,
+        program: &str,
+        features: &[&str],
+    ) -> Result<Self, ReflectError> {
+        let starts = Starts::new(context)?;
+        Ok(Self {
+            from_previous: context.options.is("start", "previous"),
+            pipelines: Pipelines::new(context, program, features, &starts.layout)?,
+            starts,
+        })
+    }
+}
+
+impl Search for FromStart {
+    fn update(&mut self, gpu: &Gpu, stage: &Stage) {
+        self.starts.update(gpu, stage);
+    }
+
+    fn begin_frame(&mut self, gpu: &Gpu) {
+        self.starts.begin_frame(gpu);
+    }
+
+    fn record_build(&self, frame: &mut Recorder<'_>, stage: &Stage) {
+        self.starts.record(frame, stage);
+    }
+
+    fn record_search(
+        &self,
+        frame: &mut Recorder<'_>,
+        stage: &Stage,
+        mirror: usize,
+        points: &Points,
+        variant: Variant,
+    ) {
+        let own = &self.starts.groups[mirror];
+        (self.pipelines).record(frame, (stage, mirror), points, own, variant);
+    }
+
+    fn uses_previous(&self) -> bool {
+        self.from_previous
+    }
+}
+
 /// The start texels of all mirrors, found anew in each frame.
-pub(super) struct Starts {
+struct Starts {
     /// Of a search's group 3: the start texel.
-    pub(super) layout: wgpu::BindGroupLayout,
+    layout: wgpu::BindGroupLayout,
     /// One a mirror.
-    pub(super) groups: Vec<wgpu::BindGroup>,
+    groups: Vec<wgpu::BindGroup>,
     from_bounds: bool,
     nearest: wgpu::ComputePipeline,
     choose: wgpu::ComputePipeline,
@@ -36,7 +92,7 @@ struct Start {
 
 impl Starts {
     /// Reads the option `start`: `bounds`, or anything else for the centre.
-    pub(super) fn new(context: &Context<'_>) -> Result<Self, ReflectError> {
+    fn new(context: &Context<'_>) -> Result<Self, ReflectError> {
         let Context {
             gpu,
             options,
@@ -75,7 +131,7 @@ impl Starts {
     }
 
     /// Takes over where the mirrors are now.
-    pub(super) fn update(&self, gpu: &Gpu, stage: &Stage) {
+    fn update(&self, gpu: &Gpu, stage: &Stage) {
         for (index, start) in self.mirrors.iter().enumerate() {
             let wanted = start_point(stage, index, self.from_bounds);
             set_uniform(gpu, &start.wanted, &wanted);
@@ -83,14 +139,14 @@ impl Starts {
     }
 
     /// Forgets the last frame's texels.
-    pub(super) fn begin_frame(&self, gpu: &Gpu) {
+    fn begin_frame(&self, gpu: &Gpu) {
         for start in &self.mirrors {
             gpu.queue.write_buffer(&start.texel, 0, &[0xff; 8]);
         }
     }
 
     /// Records the pass `start`.
-    pub(super) fn record(&self, frame: &mut Recorder<'_>, stage: &Stage) {
+    fn record(&self, frame: &mut Recorder<'_>, stage: &Stage) {
         let [width, height] = stage.world.size.map(|side| side.div_ceil(GROUP));
         frame.compute("start", |pass| {
             pass.set_bind_group(0, &stage.world.view_group, &[]);

@@ -254,42 +254,8 @@ impl Gpu {
 
     /// [`Gpu::read_texture`] of one mip level.
     pub(crate) fn read_level(&self, texture: &wgpu::Texture, level: u32) -> Vec<[f32; 4]> {
-        let [width, height] =
-            [texture.width(), texture.height()].map(|side| (side >> level).max(1));
-        let row = (width * 16).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-        let staging = self.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("readback"),
-            size: u64::from(row) * u64::from(height),
-            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-            mapped_at_creation: false,
-        });
-        let mut encoder = self.device.create_command_encoder(&Default::default());
-        encoder.copy_texture_to_buffer(
-            wgpu::TexelCopyTextureInfo {
-                mip_level: level,
-                ..texture.as_image_copy()
-            },
-            wgpu::TexelCopyBufferInfo {
-                buffer: &staging,
-                layout: wgpu::TexelCopyBufferLayout {
-                    offset: 0,
-                    bytes_per_row: Some(row),
-                    rows_per_image: None,
-                },
-            },
-            wgpu::Extent3d {
-                width,
-                height,
-                depth_or_array_layers: 1,
-            },
-        );
-        self.queue.submit([encoder.finish()]);
-        let bytes = self.mapped(&staging);
-        bytes
-            .chunks_exact(row as usize)
-            .flat_map(|line| line[..width as usize * 16].chunks_exact(16))
-            .map(bytemuck::pod_read_unaligned)
-            .collect()
+        let floats = self.read_layers(texture, level);
+        floats.as_chunks().0.to_vec()
     }
 
     /// One mip level of all layers of a texture of floats created with `COPY_SRC`: by layer, row from

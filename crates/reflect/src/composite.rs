@@ -29,6 +29,11 @@ impl Reflections {
             depth: target(gpu, "reflected depth", size, DEPTH),
         }
     }
+
+    /// Of colour and position, to draw into.
+    pub(crate) fn views(&self) -> [wgpu::TextureView; 2] {
+        [view(&self.color), view(&self.position)]
+    }
 }
 
 /// The pass `composite`.

@@ -5,12 +5,13 @@ use catoptric_frame::Work;
 use catoptric_scene::{Mirror, Scene};
 use glam::DVec3;
 
+use super::ImageOrder;
 use super::cubemaps::{CubeMaps, Wanted, draw_now, maps_layout};
-use super::{ImageOrder, draw_reflections};
+use super::per_pixel::PerPixel;
 use crate::ReflectError;
 use crate::gpu::Gpu;
-use crate::recorder::{Begin, Recorder};
-use crate::resources::{RasterTargets, group, module, raster};
+use crate::recorder::Recorder;
+use crate::resources::{group, module};
 use crate::spec::Options;
 use crate::stage::Stage;
 use crate::technique::Variant;
@@ -20,8 +21,7 @@ struct EnvironmentMap {
     every_frame: bool,
     /// Their centres go with the mirrors.
     follows: bool,
-    color: wgpu::RenderPipeline,
-    layers: wgpu::RenderPipeline,
+    lookup: PerPixel,
     /// One a mirror.
     maps: Vec<(CubeMaps, wgpu::BindGroup)>,
 }
@@ -54,19 +54,6 @@ pub(crate) fn make(
 ) -> Result<Box<dyn ImageOrder>, ReflectError> {
     let module = module(gpu, "environment_map", &[])?;
     let own_layout = maps_layout(gpu, "environment map", &[]);
-    let layouts = [
-        Some(&stage.world.view_layout),
-        Some(&stage.gbuffer.mirror_layout),
-        None,
-        Some(&own_layout),
-    ];
-    let pipeline = |entry, colors| {
-        let targets = RasterTargets {
-            colors,
-            depth: false,
-        };
-        raster(gpu, &module, entry, targets, &layouts, &[])
-    };
     let mut maps = Vec::new();
     for mirror in &stage.world.scene.mirrors {
         let wanted = Wanted {
@@ -84,8 +71,7 @@ pub(crate) fn make(
     let technique = EnvironmentMap {
         every_frame,
         follows: every_frame && options.is("placement", "center"),
-        color: pipeline("color", 1),
-        layers: pipeline("layers", 2),
+        lookup: PerPixel::new(gpu, stage, &module, &own_layout),
         maps,
     };
     draw_now(gpu, |frame| technique.record_maps(frame, stage));
@@ -116,20 +102,9 @@ impl ImageOrder for EnvironmentMap {
         if self.every_frame {
             self.record_maps(frame, stage);
         }
-        let mut begin = Begin::Clear;
-        for ((_, own), mirror) in self.maps.iter().zip(&stage.gbuffer.mirror_groups) {
-            draw_reflections(frame, "lookup", stage, variant, begin, None, |pass| {
-                pass.set_pipeline(match variant {
-                    Variant::AllLayers => &self.layers,
-                    Variant::Color => &self.color,
-                });
-                pass.set_bind_group(0, &stage.world.view_group, &[]);
-                pass.set_bind_group(1, mirror, &[]);
-                pass.set_bind_group(3, own, &[]);
-                pass.draw(0..3, 0..1);
-            });
-            begin = Begin::Keep;
-        }
+        let groups = self.maps.iter().map(|(_, group)| group);
+        let targets = stage.reflections.views();
+        (self.lookup).record(frame, "lookup", (stage, variant), groups, &targets);
     }
 
     /// One lookup a pixel.

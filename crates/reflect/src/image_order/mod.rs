@@ -4,6 +4,7 @@
 pub(crate) mod cubemap_trace;
 mod cubemaps;
 pub(crate) mod environment_map;
+mod per_pixel;
 pub(crate) mod planar;
 pub(crate) mod ray_trace;
 
@@ -13,7 +14,6 @@ use catoptric_scene::Scene;
 use crate::ReflectError;
 use crate::gpu::Gpu;
 use crate::recorder::{Begin, Recorder};
-use crate::resources::view;
 use crate::spec::{Options, Spec};
 use crate::stage::Stage;
 use crate::technique::{Built, DistanceLevel, Output, Technique, Variant};
@@ -76,11 +76,8 @@ fn draw_reflections(
     depth: Option<&wgpu::Texture>,
     draw: impl FnOnce(&mut wgpu::RenderPass<'_>),
 ) {
-    let targets = [
-        view(&stage.reflections.color),
-        view(&stage.reflections.position),
-    ];
-    let targets = [&targets[0], &targets[1]];
+    let targets = stage.reflections.views();
+    let targets = targets.each_ref();
     let targets = match variant {
         Variant::AllLayers => &targets[..],
         Variant::Color => &targets[..1],

@@ -2,10 +2,11 @@
 
 use crate::ReflectError;
 use crate::gpu::Gpu;
+use crate::image_order::ImageOrder;
+use crate::image_order::per_pixel::PerPixel;
 use crate::image_order::ray_trace::RayTrace;
-use crate::image_order::{ImageOrder, draw_reflections};
-use crate::recorder::{Begin, Recorder};
-use crate::resources::{FLOAT4, RasterTargets, Slot, group, layout, module, raster, target, view};
+use crate::recorder::Recorder;
+use crate::resources::{FLOAT4, Slot, group, layout, module, target, view};
 use crate::stage::Stage;
 use crate::technique::Variant;
 
@@ -16,8 +17,7 @@ pub(crate) struct Fill {
     pub color: wgpu::Texture,
     /// As [`crate::composite::Reflections::position`].
     pub position: wgpu::Texture,
-    draw_color: wgpu::RenderPipeline,
-    draw_layers: wgpu::RenderPipeline,
+    pass: PerPixel,
     group: wgpu::BindGroup,
     rays: Option<RayTrace>,
 }
@@ -31,22 +31,8 @@ impl Fill {
         let views = [view(&color), view(&position)];
         let resources = views.each_ref().map(wgpu::BindingResource::TextureView);
         let module = module(gpu, "cubemap_fill", if trace { &["later"] } else { &[] })?;
-        let layouts = [
-            Some(&stage.world.view_layout),
-            Some(&stage.gbuffer.mirror_layout),
-            None,
-            Some(&own_layout),
-        ];
-        let pipeline = |entry, colors| {
-            let targets = RasterTargets {
-                colors,
-                depth: false,
-            };
-            raster(gpu, &module, entry, targets, &layouts, &[])
-        };
         Ok(Self {
-            draw_color: pipeline("color", 1),
-            draw_layers: pipeline("layers", 2),
+            pass: PerPixel::new(gpu, stage, &module, &own_layout),
             group: group(gpu, &own_layout, &resources),
             rays: trace
                 .then(|| RayTrace::of_pixels(gpu, stage, &color))
@@ -64,20 +50,10 @@ impl Fill {
     }
 
     pub(crate) fn record(&self, frame: &mut Recorder<'_>, stage: &Stage, variant: Variant) {
-        let mut begin = Begin::Clear;
-        for mirror in &stage.gbuffer.mirror_groups {
-            draw_reflections(frame, "fill", stage, variant, begin, None, |pass| {
-                pass.set_pipeline(match variant {
-                    Variant::AllLayers => &self.draw_layers,
-                    Variant::Color => &self.draw_color,
-                });
-                pass.set_bind_group(0, &stage.world.view_group, &[]);
-                pass.set_bind_group(1, mirror, &[]);
-                pass.set_bind_group(3, &self.group, &[]);
-                pass.draw(0..3, 0..1);
-            });
-            begin = Begin::Keep;
-        }
+        // The same for all mirrors.
+        let groups = std::iter::repeat(&self.group);
+        let targets = stage.reflections.views();
+        (self.pass).record(frame, "fill", (stage, variant), groups, &targets);
         if let Some(rays) = &self.rays {
             rays.record(frame, stage, variant);
         }

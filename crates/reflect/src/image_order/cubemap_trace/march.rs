@@ -4,21 +4,21 @@ use catoptric_frame::{Image, Traced};
 
 use crate::ReflectError;
 use crate::gpu::Gpu;
-use crate::recorder::{Begin, Recorder};
-use crate::resources::{RasterTargets, module, raster};
+use crate::image_order::per_pixel::{Pass, PerPixel};
+use crate::recorder::Recorder;
+use crate::resources::module;
 use crate::spec::Options;
 use crate::stage::Stage;
 use crate::technique::Variant;
 
 /// The pass `trace`.
 pub(crate) struct March {
-    color: wgpu::RenderPipeline,
-    layers: wgpu::RenderPipeline,
+    trace: PerPixel,
     effort: Effort,
 }
 
 /// The pass `effort`: rays followed for what they take alone.
-pub(crate) struct Effort(wgpu::RenderPipeline);
+pub(crate) struct Effort(Pass);
 
 /// What options turn on in the shader.
 pub(crate) fn features(options: &Options) -> Vec<&'static str> {
@@ -56,11 +56,9 @@ impl March {
         own_layout: &wgpu::BindGroupLayout,
     ) -> Result<Self, ReflectError> {
         let module = module(gpu, "cubemap_trace", &features(options))?;
-        let pipeline = |entry, colors| pipeline(gpu, &module, entry, colors, stage, own_layout);
         Ok(Self {
-            color: pipeline("color", 1),
-            layers: pipeline("layers", 2),
-            effort: Effort(pipeline("effort", 1)),
+            trace: PerPixel::new(gpu, stage, &module, own_layout),
+            effort: Effort::of(gpu, stage, &module, own_layout),
         })
     }
 
@@ -71,16 +69,10 @@ impl March {
         stage: &Stage,
         variant: Variant,
         groups: &[&wgpu::BindGroup],
-        targets: [&wgpu::TextureView; 2],
+        targets: &[wgpu::TextureView; 2],
     ) {
-        match variant {
-            Variant::AllLayers => {
-                draw(frame, "trace", stage, groups, &self.layers, &targets);
-            }
-            Variant::Color => {
-                draw(frame, "trace", stage, groups, &self.color, &targets[..1]);
-            }
-        }
+        let groups = groups.iter().copied();
+        (self.trace).record(frame, "trace", (stage, variant), groups, targets);
     }
 
     /// Traces once more for what it took.
@@ -104,7 +96,16 @@ impl Effort {
         own_layout: &wgpu::BindGroupLayout,
     ) -> Result<Self, ReflectError> {
         let module = module(gpu, "cubemap_trace", features)?;
-        Ok(Self(pipeline(gpu, &module, "effort", 1, stage, own_layout)))
+        Ok(Self::of(gpu, stage, &module, own_layout))
+    }
+
+    fn of(
+        gpu: &Gpu,
+        stage: &Stage,
+        module: &wgpu::ShaderModule,
+        own_layout: &wgpu::BindGroupLayout,
+    ) -> Self {
+        Self(Pass::new(gpu, stage, module, ("effort", 1), own_layout))
     }
 
     /// Writes samples, skips, resolving map, rays.
@@ -115,49 +116,8 @@ impl Effort {
         groups: &[&wgpu::BindGroup],
         target: &wgpu::TextureView,
     ) {
-        draw(frame, "effort", stage, groups, &self.0, &[target]);
-    }
-}
-
-fn pipeline(
-    gpu: &Gpu,
-    module: &wgpu::ShaderModule,
-    entry: &str,
-    colors: usize,
-    stage: &Stage,
-    own_layout: &wgpu::BindGroupLayout,
-) -> wgpu::RenderPipeline {
-    let layouts = [
-        Some(&stage.world.view_layout),
-        Some(&stage.gbuffer.mirror_layout),
-        None,
-        Some(own_layout),
-    ];
-    let targets = RasterTargets {
-        colors,
-        depth: false,
-    };
-    raster(gpu, module, entry, targets, &layouts, &[])
-}
-
-fn draw(
-    frame: &mut Recorder<'_>,
-    name: &str,
-    stage: &Stage,
-    groups: &[&wgpu::BindGroup],
-    pipeline: &wgpu::RenderPipeline,
-    targets: &[&wgpu::TextureView],
-) {
-    let mut begin = Begin::Clear;
-    for (own, mirror) in groups.iter().zip(&stage.gbuffer.mirror_groups) {
-        frame.render(name, targets, begin, None, |pass| {
-            pass.set_pipeline(pipeline);
-            pass.set_bind_group(0, &stage.world.view_group, &[]);
-            pass.set_bind_group(1, mirror, &[]);
-            pass.set_bind_group(3, *own, &[]);
-            pass.draw(0..3, 0..1);
-        });
-        begin = Begin::Keep;
+        let groups = groups.iter().copied();
+        self.0.record(frame, "effort", stage, groups, &[target]);
     }
 }
 

@@ -222,12 +222,11 @@ impl ImageOrder for CubemapTrace {
         let effort = view(&self.effort);
         match &self.tracer {
             Tracer::Fragment(march) => {
-                let (color, position) = match &self.fill {
-                    Some(fill) => (&fill.color, &fill.position),
-                    None => (&stage.reflections.color, &stage.reflections.position),
+                let targets = match &self.fill {
+                    Some(fill) => [view(&fill.color), view(&fill.position)],
+                    None => stage.reflections.views(),
                 };
-                let targets = [view(color), view(position)];
-                march.record(frame, stage, variant, &groups, [&targets[0], &targets[1]]);
+                march.record(frame, stage, variant, &groups, &targets);
                 if variant == Variant::AllLayers {
                     march.record_effort(frame, stage, &groups, &effort);
                 }

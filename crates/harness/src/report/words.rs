@@ -27,7 +27,7 @@ pub fn count(value: u64) -> String {
     let mut text = String::new();
     for (place, digit) in digits.chars().enumerate() {
         if place > 0 && (digits.len() - place).is_multiple_of(3) {
-            text.push('\u{2009}');
+            text.push('\u{202f}');
         }
         text.push(digit);
     }
@@ -400,10 +400,10 @@ mod tests {
     }
 
     #[test]
-    fn counts_have_thin_spaces() {
+    fn counts_have_narrow_spaces_that_do_not_break() {
         assert_eq!(
             [5, 999, 1000, 1_234_567].map(count),
-            ["5", "999", "1\u{2009}000", "1\u{2009}234\u{2009}567"]
+            ["5", "999", "1\u{202f}000", "1\u{202f}234\u{202f}567"]
         );
     }
 }

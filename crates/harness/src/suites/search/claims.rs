@@ -224,7 +224,7 @@ fn growth(results: &Results<'_>) -> Vec<String> {
         let (most, _) = search.last()?;
         Some(format!(
             "“{label}”: up to {} vertices its own passes grow as the vertices to the power {} (upper half of the \
-             sizes); a whole frame costs about {} ms and {} ms more per 1\u{2009}000 vertices.",
+             sizes); a whole frame costs about {} ms and {} ms more per 1\u{202f}000 vertices.",
             count(*most as u64),
             short(growth),
             short(constant),

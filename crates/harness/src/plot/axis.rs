@@ -7,6 +7,8 @@ use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
 pub enum Scale {
     /// Equal steps; reaches down to 0 where no value is negative.
     Linear,
+    /// Equal steps around the values alone, for small differences of large values.
+    Close,
     /// Equal ratios; values that are not positive are left out.
     Log,
     /// The names of 0, 1, 2, …
@@ -83,7 +85,7 @@ impl Axis {
         let place = match self.scale {
             Scale::Log if value > 0.0 => value.log10(),
             Scale::Log => return None,
-            Scale::Linear | Scale::Names(_) => value,
+            Scale::Linear | Scale::Close | Scale::Names(_) => value,
         };
         place.is_finite().then_some(place)
     }
@@ -98,7 +100,8 @@ impl Axis {
                 bold: (0..names.len()).map(|name| name as f64).collect(),
                 light: Vec::new(),
             },
-            Scale::Linear => linear(low, high),
+            Scale::Linear => linear(low.min(0.0), high, 0.0),
+            Scale::Close => linear(low, high, 0.05),
             Scale::Log => log(low, high),
         })
     }
@@ -111,13 +114,15 @@ impl Axis {
                 name.cloned().unwrap_or_default()
             }
             Scale::Linear => number(place),
+            // Ticks are round numbers: what is cut off here are their rounding errors.
+            Scale::Close => trimmed(&format!("{place:.6}")).to_owned(),
             Scale::Log => number(10f64.powf(place)),
         }
     }
 }
 
-fn linear(low: f64, high: f64) -> Extent {
-    let low = if low >= 0.0 { 0.0 } else { low };
+/// From `low`, and `below` of the span under it, to a little over `high`.
+fn linear(low: f64, high: f64, below: f64) -> Extent {
     let span = if high > low { high - low } else { 1.0 };
     let rough = span / TICKS;
     let magnitude = 10f64.powf(rough.log10().floor());
@@ -127,6 +132,7 @@ fn linear(low: f64, high: f64) -> Extent {
         .find(|step| *step >= rough)
         .unwrap_or(steps[3]);
     let high = low + span * 1.05;
+    let low = low - span * below;
     let first = (low / step).ceil() as i64;
     let last = (high / step).floor() as i64;
     Extent {
@@ -178,12 +184,17 @@ fn number(value: f64) -> String {
     let decimals = (1.0 - magnitude).clamp(0.0, 6.0) as usize;
     let text = format!("{value:.decimals$}");
     if text.contains('.') {
-        return text.trim_end_matches('0').trim_end_matches('.').to_owned();
+        return trimmed(&text).to_owned();
     }
     match text.parse::<u64>() {
         Ok(whole) => crate::report::words::count(whole),
         Err(_) => text,
     }
+}
+
+/// A number with a decimal point, without the zeros at its end.
+fn trimmed(text: &str) -> &str {
+    text.trim_end_matches('0').trim_end_matches('.')
 }
 
 #[cfg(test)]
@@ -221,6 +232,18 @@ mod tests {
         let extent = Axis::linear("n").extent([3.0, 9.0].into_iter()).unwrap();
         assert_eq!(extent.range[0], 0.0);
         assert_eq!(extent.bold, [0.0, 2.0, 4.0, 6.0, 8.0]);
+    }
+
+    #[test]
+    fn a_close_axis_shows_small_differences() {
+        let axis = Axis {
+            label: String::new(),
+            scale: Scale::Close,
+        };
+        let extent = axis.extent([0.965, 0.978].into_iter()).unwrap();
+        let labels: Vec<_> = extent.bold.iter().map(|place| axis.tick(*place)).collect();
+        assert_eq!(labels[..3], ["0.966", "0.968", "0.97"]);
+        assert!(extent.range[0] < 0.965 && extent.range[1] > 0.978);
     }
 
     #[test]

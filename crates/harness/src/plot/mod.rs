@@ -1,10 +1,11 @@
 //! Diagrams as SVG: in a page they take its text colour, as files they are light or dark by
 //! themselves.
 //!
-//! [`Plot`] says what to show; axes, grid and lines are drawn by plotters, markers, their names
-//! and the legend are set by `svg`.
+//! [`Plot`] says what to show; axes, grid and lines are drawn by plotters, markers, their names,
+//! the names along an axis and the legend are set by `svg`.
 
 mod axis;
+mod names;
 mod svg;
 
 pub use axis::{Axis, Scale};
@@ -24,6 +25,10 @@ pub const SERIES: [&str; 7] = [
 const WIDTH: u32 = 640;
 /// Usual height of a plot, without its legend.
 pub const TALL: u32 = 360;
+/// Around every plot.
+const MARGIN: u32 = 12;
+/// Room for the numbers at the y axis.
+const LEFT: u32 = 78;
 
 /// What a diagram shows.
 #[derive(Clone, Debug, PartialEq)]
@@ -109,7 +114,7 @@ impl Plot {
                 let middle = (self.series.len() as f64 - 1.0) / 2.0;
                 (series as f64 - middle) * 0.6 / self.series.len() as f64
             }
-            Scale::Linear | Scale::Log => 0.0,
+            Scale::Linear | Scale::Close | Scale::Log => 0.0,
         }
     }
 
@@ -120,29 +125,38 @@ impl Plot {
         let (Some(x), Some(y)) = (x, y) else {
             return Ok(None);
         };
-        let mut body = String::new();
-        let markers = self
-            .axes_and_lines(&shown, x, y, &mut body)
+        let drawn = self
+            .axes_and_lines(&shown, x, y)
             .map_err(|error| anyhow!("drawing `{}`: {error}", self.title))?;
-        Ok(Some(svg::Drawn { body, markers }))
+        Ok(Some(drawn))
     }
 
-    /// Draws into `body` and returns the markers with their places in the drawing.
+    /// Everything but the legend; names along the x axis take what room they need.
     fn axes_and_lines(
         &self,
         shown: &[Shown<'_>],
         x: Extent,
         y: Extent,
-        body: &mut String,
-    ) -> Result<Vec<svg::Marker>, Box<dyn std::error::Error>> {
-        let root = SVGBackend::with_string(body, (WIDTH, self.height)).into_drawing_area();
+    ) -> Result<svg::Drawn, Box<dyn std::error::Error>> {
         let labelled = !matches!(self.y.scale, Scale::Names(_));
+        let names = match &self.x.scale {
+            Scale::Names(names) => Some(names::Layout::of(names, WIDTH - 2 * MARGIN - LEFT)),
+            _ => None,
+        };
+        let room = names.as_ref().map_or(0, |names| names.room);
+        let height = self.height + room;
+        let mut body = String::new();
+        let root = SVGBackend::with_string(&mut body, (WIDTH, height)).into_drawing_area();
         let floor = y.range[0];
-        let ticks = (x.bold.len(), if labelled { y.bold.len() } else { 0 });
+        let ticks = (
+            if names.is_some() { 0 } else { x.bold.len() },
+            if labelled { y.bold.len() } else { 0 },
+        );
+        let places = x.bold.clone();
         let mut chart = ChartBuilder::on(&root)
-            .margin(12)
-            .x_label_area_size(52)
-            .y_label_area_size(if labelled { 78 } else { 12 })
+            .margin(MARGIN)
+            .x_label_area_size(52 + room)
+            .y_label_area_size(if labelled { LEFT } else { 12 })
             .build_cartesian_2d(x, y)
             .map_err(|error| error.to_string())?;
         chart
@@ -183,8 +197,21 @@ impl Plot {
             label: point.point.label.clone(),
         });
         let markers = markers.collect();
+        let named = names.map(|names| {
+            let at = places
+                .iter()
+                .map(|place| chart.backend_coord(&(*place, floor)));
+            (names, at.collect())
+        });
         root.present().map_err(|error| error.to_string())?;
-        Ok(markers)
+        drop(chart);
+        drop(root);
+        Ok(svg::Drawn {
+            body,
+            height,
+            markers,
+            named,
+        })
     }
 }
 

@@ -1,13 +1,18 @@
-//! What is set around and upon a drawing: markers and their names, the legend, the colours of a
-//! page or of a file.
+//! What is set around and upon a drawing: markers and their names, the names along an axis, the
+//! legend, the colours of a page or of a file.
 
+use super::names::Layout;
 use super::{Plot, SERIES, WIDTH};
 use crate::report::words::escape;
 
-/// A drawing without markers and legend.
+/// A drawing without markers, names and legend.
 pub struct Drawn {
     /// As plotters wrote it.
     pub body: String,
+    /// Of the drawing.
+    pub height: u32,
+    /// Names along the x axis, and where on it they stand.
+    pub named: Option<(Layout, Vec<(i32, i32)>)>,
     /// In the order in which they are set.
     pub markers: Vec<Marker>,
 }
@@ -66,6 +71,9 @@ fn complete(drawn: &Drawn, plot: &Plot) -> (String, u32) {
             .replace(" font-family=\"sans-serif\"", "");
         body.push('\n');
     }
+    if let Some((layout, at)) = &drawn.named {
+        body += &layout.svg(at);
+    }
     for marker in &drawn.markers {
         let (x, y) = (f64::from(marker.at.0), f64::from(marker.at.1));
         let shape = shape(marker.series, x, y);
@@ -78,7 +86,7 @@ fn complete(drawn: &Drawn, plot: &Plot) -> (String, u32) {
             escape(name)
         );
     }
-    let height = plot.height + legend(plot, &mut body);
+    let height = drawn.height + legend(plot, drawn.height, &mut body);
     (body, height)
 }
 
@@ -94,8 +102,9 @@ fn shape(series: usize, x: f64, y: f64) -> String {
     format!("<path d=\"{path}\" fill=\"{color}\"/>")
 }
 
-/// Sets the legend under the drawing, as many entries a line as fit, and returns its height.
-fn legend(plot: &Plot, body: &mut String) -> u32 {
+/// Sets the legend under a drawing of height `top`, as many entries a line as fit, and returns its
+/// height.
+fn legend(plot: &Plot, top: u32, body: &mut String) -> u32 {
     let (mut x, mut line) = (14, 0);
     let named = plot.series.iter().enumerate();
     let named = named.filter(|(_, series)| !series.points.is_empty());
@@ -104,7 +113,7 @@ fn legend(plot: &Plot, body: &mut String) -> u32 {
         if x > 14 && x + width > WIDTH {
             (x, line) = (14, line + 1);
         }
-        let y = plot.height + LINE * line + LINE / 2;
+        let y = top + LINE * line + LINE / 2;
         *body += &shape(series, f64::from(x), f64::from(y));
         *body += &format!(
             "<text x=\"{}\" y=\"{}\" font-size=\"16\" fill=\"currentColor\">{}</text>\n",

@@ -123,6 +123,16 @@ impl Quantity {
         }
     }
 
+    /// On an axis of equal steps around the values, where they differ by little.
+    pub const fn close(label: &'static str, path: &'static str) -> Self {
+        Self {
+            label,
+            path,
+            scale: Scale::Close,
+            guide: None,
+        }
+    }
+
     /// With a number beside it.
     pub fn beside(self, guide: Guide) -> Self {
         Self {

@@ -237,8 +237,10 @@ fn table(figure: &Figure, results: &Results<'_>) -> Table {
         for point in &series.points {
             let x = match &figure.axis.scale {
                 Scale::Names(names) => names.get(point.x as usize).cloned().unwrap_or_default(),
-                Scale::Linear | Scale::Log if point.along.is_none() => format!("{}", point.x),
-                Scale::Linear | Scale::Log => words::or_dash(results.place(point)),
+                Scale::Linear | Scale::Close | Scale::Log if point.along.is_none() => {
+                    format!("{}", point.x)
+                }
+                Scale::Linear | Scale::Close | Scale::Log => words::or_dash(results.place(point)),
             };
             let values = figure
                 .quantities

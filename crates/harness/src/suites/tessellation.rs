@@ -3,8 +3,9 @@
 //!
 //! What the papers show as pictures and times stands here beside what they could not measure:
 //! error against a ray-traced truth, so that "almost no visible difference" becomes a number.
-//! The thesis' figures are in `square`, those of the other paper in `table`.
+//! The thesis' figures are in `square`, those of the other paper in `table` and `facets`.
 
+mod facets;
 mod geometry;
 mod square;
 mod table;
@@ -35,10 +36,11 @@ const JUNCTIONS: &str = "coverage.t_junctions";
 const SEARCHED: &str = "vertices.searched";
 const DRAWN: &str = "triangles.drawn";
 
-/// The thesis' scene, two triangles that crack, and CESCG's coarse and fine models.
+/// The thesis' scene, two triangles that crack, CESCG's coarse and fine models, and a mirror of facets.
 const SQUARE: &str = "sphere-square";
 const CRACK: &str = "crack";
 const TABLE: &str = "sphere-table";
+const FACETS: &str = "faceted";
 
 /// The thesis' threshold.
 const THRESHOLD: &str = "0.001";
@@ -64,6 +66,7 @@ fn figures(scene: Option<&str>) -> Vec<Figure> {
         table::coarse_and_fine(&table),
         table::thresholds(&table),
         table::counts(&table),
+        facets::facets(scene.unwrap_or(FACETS)),
     ]
 }
 

@@ -107,7 +107,7 @@ fn table_analysis(results: &Results<'_>) -> Vec<String> {
     {
         sentences.push(format!(
             "The right object is shown at {} % of the mirror pixels without tessellation, {} % with adaptive \
-             and {} % with full tessellation: that adaptive shows what full does {}, if one pixel in a hundred \
+             and {} % with full tessellation: that the two look alike {}, if one pixel in a hundred \
              is what can be told.",
             short(100.0 * plain),
             short(100.0 * some),

@@ -1,0 +1,82 @@
+//! A mirror of flat facets, of which CESCG shows a picture.
+
+use crate::report::words::{percent, short};
+
+use super::super::{Ask, Figure, Point, Quantity, Quote, Results};
+use super::{
+    AGREEMENT, ANGLE, BY_EYE, FRAME_MS, NONE, THRESHOLD, adaptive, full, named, quantities, series,
+    verdict,
+};
+
+/// The scene's fine floor, split twice, is 180 000 triangles.
+const SIZE: [u32; 2] = [320, 240];
+const LEVEL: u32 = 2;
+
+const FOUR: &str = "linear search";
+const EIGHT: &str = "with eight neighbours";
+
+/// CESCG Fig. 10b.
+pub fn facets(scene: &str) -> Figure {
+    let techniques = |search: &str| {
+        ["linear".to_owned(), full(LEVEL), adaptive(LEVEL, THRESHOLD)]
+            .map(|technique| technique.replacen("linear", search, 1))
+    };
+    let points = |search| {
+        let points = (0..).zip(techniques(search));
+        points.map(|(x, technique)| Point {
+            resolution: Some(SIZE),
+            ..Point::new(f64::from(x), scene, technique)
+        })
+    };
+    let mut four = series(FOUR, points("linear"));
+    four.points[0].picture = true;
+    let mut eight = series(EIGHT, points("linear(neighbours=8)"));
+    eight.points[0].picture = true;
+    Figure {
+        anchor: "facets",
+        title: "A mirror of flat facets".to_owned(),
+        after: "Szabo CESCG, Fig. 10b",
+        question: format!(
+            "The search assumes one reflection point for each vertex. In facets a vertex is seen several times, \
+             or not at all where the best point is a crease; and on a facet all normals are the same. \
+             Does splitting triangles help? Measured at {} × {} pixels.",
+            SIZE[0], SIZE[1]
+        ),
+        axis: named(
+            "tessellation",
+            &[NONE, "full, 2 levels", "adaptive, 2 levels"],
+        ),
+        series: vec![four, eight],
+        quantities: quantities([Quantity::log("time of a frame (ms)", FRAME_MS)]),
+        quotes: vec![Quote {
+            what: "a polygonal mirror",
+            theirs: "“an example”",
+            on: BY_EYE,
+            ours: Some(Ask {
+                series: FOUR,
+                x: 0.0,
+                path: AGREEMENT,
+                unit: "of the mirror pixels right",
+            }),
+        }],
+        analysis,
+    }
+}
+
+fn analysis(results: &Results<'_>) -> Vec<String> {
+    let sentence = |label: &str| {
+        let at = |x, path| results.at(label, x, path);
+        let (plain, split) = (at(0.0, AGREEMENT)?, at(1.0, AGREEMENT)?);
+        Some(format!(
+            "{label}: the right object at {} of the mirror pixels without tessellation, at {} with \
+             every triangle split {LEVEL} times; the median angular error goes from {}° to {}°. That \
+             splitting repairs what the search does not find at creases {}.",
+            percent(plain),
+            percent(split),
+            short(at(0.0, ANGLE)?),
+            short(at(1.0, ANGLE)?),
+            verdict(split - plain > 0.01)
+        ))
+    };
+    [FOUR, EIGHT].into_iter().filter_map(sentence).collect()
+}

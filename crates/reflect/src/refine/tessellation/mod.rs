@@ -6,7 +6,9 @@
 //! each drawn before the next. Slots come from prefix sums, so that neither pictures nor counts
 //! depend on the order in which threads run.
 
+mod buffers;
 mod junctions;
+mod kernels;
 mod passes;
 mod plan;
 #[cfg(test)]
@@ -14,7 +16,7 @@ pub(crate) mod tests;
 
 use catoptric_frame::{Triangles, VertexResult};
 use catoptric_scene::Scene;
-use encase::{ShaderType, StorageBuffer};
+use encase::ShaderType;
 
 use super::originals::Originals;
 use super::{Context, Refine};
@@ -145,7 +147,7 @@ impl Tessellation {
         let vertices: Vec<_> = (stage.world.scene.objects.iter())
             .flat_map(|object| object.mesh.positions.iter().copied())
             .collect();
-        let totals = gpu.read_buffer(&self.passes.totals);
+        let totals = gpu.read_buffer(self.passes.totals_buffer());
         for chunk in 0..self.plan.chunks().count() {
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             let mut unstamped = Timer::none();
@@ -172,7 +174,8 @@ impl Tessellation {
                 });
             }
         }
-        gpu.queue.write_buffer(&self.passes.totals, 0, &totals);
+        let buffer = self.passes.totals_buffer();
+        gpu.queue.write_buffer(buffer, 0, &totals);
     }
 
     /// Twin of `usable` in `virtual.wesl`.
@@ -182,13 +185,6 @@ impl Tessellation {
         } else {
             states.iter().all(|state| *state == Found::FOUND)
         }
-    }
-
-    fn totals(&self, gpu: &Gpu) -> Totals {
-        let bytes = gpu.read_buffer_part(&self.passes.totals, Totals::min_size().get());
-        StorageBuffer::new(bytes)
-            .create()
-            .expect("the buffer holds the totals")
     }
 }
 
@@ -224,7 +220,7 @@ impl Refine for Tessellation {
         let mut efforts = self.originals.efforts(gpu, stage);
         let [steps, evaluations, node_tests] = self.passes.effort_sums(gpu);
         efforts.add(Efforts {
-            searched: self.totals(gpu).points.into(),
+            searched: self.passes.totals(gpu).points.into(),
             steps,
             evaluations,
             node_tests,
@@ -233,7 +229,7 @@ impl Refine for Tessellation {
     }
 
     fn triangles(&self, gpu: &Gpu, _stage: &Stage) -> Triangles {
-        let totals = self.totals(gpu);
+        let totals = self.passes.totals(gpu);
         let by_level = totals.by_level[..=self.plan.level as usize].iter();
         let by_level: Vec<_> = by_level.map(|count| u64::from(*count)).collect();
         Triangles {

@@ -1,0 +1,101 @@
+//! Kernels of the tessellation loop, with the layouts of what they are bound to.
+
+use super::Rule;
+use crate::ReflectError;
+use crate::gpu::Gpu;
+use crate::refine::Context;
+use crate::resources::{Slot, compute, group, layout, module};
+
+/// Threads of a workgroup, one a triangle.
+pub(super) const GROUP: u32 = 256;
+
+/// A kernel and the layout of its group 3.
+pub(super) struct Kernel {
+    pub pipeline: wgpu::ComputePipeline,
+    own_layout: wgpu::BindGroupLayout,
+}
+
+impl Kernel {
+    /// Its group 3.
+    pub(super) fn group(
+        &self,
+        gpu: &Gpu,
+        resources: &[wgpu::BindingResource<'_>],
+    ) -> wgpu::BindGroup {
+        group(gpu, &self.own_layout, resources)
+    }
+}
+
+/// The entry points of `tessellation.wesl` in the order in which they run, and of `tally.wesl`.
+pub(super) struct Kernels {
+    pub begin: Kernel,
+    pub classify: Kernel,
+    pub scan: Kernel,
+    pub split: Kernel,
+    /// The same for the last level.
+    pub split_last: wgpu::ComputePipeline,
+    pub judge: Kernel,
+    pub tally: Kernel,
+    /// Of group 2 of `classify` and `judge`.
+    pub answers_layout: wgpu::BindGroupLayout,
+    /// Of group 2 of `split`.
+    pub vertices_layout: wgpu::BindGroupLayout,
+}
+
+impl Kernels {
+    pub(super) fn new(context: &Context<'_>, rule: Rule) -> Result<Self, ReflectError> {
+        use Slot::{Read, Uniform, Write};
+        let Context { gpu, stage, .. } = context;
+        let program = |features: &[&str]| module(gpu, "tessellation", features);
+        let plain = program(&[])?;
+        let judging = match rule.threshold {
+            None => &program(&["full"])?,
+            Some(_) => &plain,
+        };
+        // Groups 0 to 2 as each kernel wants them, then its own.
+        let kernel =
+            |module, entry, slots: &[Slot], others: [Option<&wgpu::BindGroupLayout>; 3]| {
+                let own_layout = layout(gpu, entry, slots);
+                let [view, mirror, shared] = others;
+                let layouts = [view, mirror, shared, Some(&own_layout)];
+                Kernel {
+                    pipeline: compute(gpu, module, entry, &layouts),
+                    own_layout,
+                }
+            };
+        let alone = [None; 3];
+        let answers_layout = layout(gpu, "answers", &[Read; 4]);
+        let answered = [
+            Some(&stage.world.view_layout),
+            Some(&stage.gbuffer.mirror_layout),
+            Some(&answers_layout),
+        ];
+        let vertices_layout = layout(gpu, "vertices", &[Read, Write]);
+        let of_surface = [None, None, Some(&stage.world.surface_layout)];
+        let of_vertices = [None, None, Some(&vertices_layout)];
+        let begin_slots = [Uniform, Write, Write, Uniform, Write];
+        let classify_slots = [Uniform, Read, Read, Write, Write];
+        let scan_slots = [Uniform, Write, Write, Write, Write, Write, Write];
+        let split_slots = [Read, Write, Write, Read, Read, Read];
+        let judge_slots = [Uniform, Read, Read, Write];
+        let split = kernel(&plain, "split", &split_slots, of_vertices);
+        let [view, mirror, shared] = of_vertices;
+        let layouts = [view, mirror, shared, Some(&split.own_layout)];
+        Ok(Self {
+            begin: kernel(&plain, "begin", &begin_slots, of_surface),
+            classify: kernel(judging, "classify", &classify_slots, answered),
+            scan: kernel(&plain, "scan", &scan_slots, alone),
+            split_last: compute(gpu, &program(&["last"])?, "split", &layouts),
+            split,
+            judge: kernel(judging, "judge", &judge_slots, answered),
+            tally: kernel(
+                &module(gpu, "tally", &[])?,
+                "tally",
+                &[Read, Read, Write],
+                alone,
+            ),
+            answers_layout,
+            vertices_layout,
+        })
+    }
+}

@@ -15,6 +15,7 @@
 mod composite;
 mod data;
 mod gbuffer;
+mod geometry;
 pub mod gpu;
 mod image_order;
 mod object_order;

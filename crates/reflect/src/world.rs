@@ -7,7 +7,8 @@ use glam::Vec3;
 use wgpu::util::DeviceExt;
 
 use crate::ReflectError;
-use crate::data::{Found, Geometry, MirrorUniform, ViewUniform};
+use crate::data::{Found, MirrorUniform, ViewUniform};
+use crate::geometry::Geometry;
 use crate::gpu::Gpu;
 use crate::resources::{Slot, group, layout, set_uniform, storage, storage_bytes, uniform};
 

@@ -148,10 +148,11 @@ impl Plot {
         let mut body = String::new();
         let root = SVGBackend::with_string(&mut body, (WIDTH, height)).into_drawing_area();
         let floor = y.range[0];
-        let ticks = (
-            if names.is_some() { 0 } else { x.bold.len() },
-            if labelled { y.bold.len() } else { 0 },
-        );
+        let ticks = (x.bold.len(), if labelled { y.bold.len() } else { 0 });
+        let tick = |place: f64| match &names {
+            Some(_) => String::new(),
+            None => self.x.tick(place),
+        };
         let places = x.bold.clone();
         let mut chart = ChartBuilder::on(&root)
             .margin(MARGIN)
@@ -165,7 +166,7 @@ impl Plot {
             .y_desc(self.y.label.as_str())
             .x_labels(ticks.0)
             .y_labels(ticks.1)
-            .x_label_formatter(&|place| self.x.tick(*place))
+            .x_label_formatter(&|place| tick(*place))
             .y_label_formatter(&|place| self.y.tick(*place))
             .label_style(("sans-serif", 16))
             .axis_desc_style(("sans-serif", 17))

@@ -31,26 +31,49 @@ const QUICK_SCENES: [&str; 8] = [
     "sphere-touching",
 ];
 
-/// Both published searches, the linear one also with the residual that 32 bits can resolve, what
-/// games use instead, the mirrored eye for flat mirrors, and the control.
-const TECHNIQUES: [&str; 6] = [
+/// Both published searches, what games use instead, the mirrored eye for flat mirrors, and the
+/// control.
+const TECHNIQUES: [&str; 5] = [
     "linear",
-    "linear(residual=cross,neighbours=8)",
     "ray-hierarchy(repair=enlarge)",
     "environment-map",
     "planar",
     words::CONTROL,
 ];
 
-/// Scenes on which splitting shows: few large triangles, and coarse models beside fine ones.
-const SPLIT_SCENES: [&str; 2] = ["sphere-square", "sphere-table"];
-/// The refinement as published, at a limit after which the thesis sees no difference.
-const SPLIT: &str = "linear+adaptive(level=3)";
+/// Techniques on the scenes that show best what they are about: all of them on all scenes would take
+/// the quick suite too long. They stand behind `linear`.
+const FEATURED: [(&str, &[&str]); 5] = [
+    // Few large triangles, and coarse models beside fine ones.
+    ("linear+full(level=3)", &["sphere-square"]),
+    (
+        "linear+adaptive(level=3)",
+        &["sphere-square", "sphere-table"],
+    ),
+    // The residual that 32 bits can resolve.
+    (
+        "linear(residual=cross,neighbours=8)",
+        &["sphere-objects-20k", "spheres", "ellipsoid", "bowl"],
+    ),
+    // As its paper runs it: a triangle that the mirror hides in part is drawn.
+    (
+        "reflector-cubemap(depth=virtual,hidden=extend)",
+        &["sphere-table", "ellipsoid", "sphere-touching"],
+    ),
+    (
+        "cubemap-trace(pyramid=sound,sampling=texel)",
+        &["sphere-table", "bowl", "sphere-touching"],
+    ),
+];
 
-/// What is measured on a scene.
-fn techniques(scene: &str) -> Vec<String> {
-    let split = SPLIT_SCENES.contains(&scene).then_some(SPLIT);
-    let all = TECHNIQUES[..1].iter().copied().chain(split);
+/// What is measured on a scene. `everywhere`: the featured techniques too, but for refinements, which
+/// make of large scenes more triangles than time allows.
+fn techniques(scene: &str, everywhere: bool) -> Vec<String> {
+    let featured = FEATURED.iter().filter(|(technique, scenes)| {
+        scenes.contains(&scene) || (everywhere && !technique.contains('+'))
+    });
+    let all = TECHNIQUES[..1].iter().copied();
+    let all = all.chain(featured.map(|(technique, _)| *technique));
     let all = all.chain(TECHNIQUES[1..].iter().copied());
     all.map(str::to_owned).collect()
 }
@@ -91,7 +114,7 @@ pub fn run(suite: SuiteArg, time_budget: Option<f64>, common: &Common) -> anyhow
         .flat_map(|scene| {
             setup::product(
                 std::slice::from_ref(scene),
-                &techniques(scene),
+                &techniques(scene, suite == SuiteArg::Full),
                 timing,
                 None,
             )

@@ -335,8 +335,13 @@ pub fn lead(rows: &[Record], techniques: &[String]) -> Vec<String> {
             found.sort_by(|a, b| a.0.total_cmp(&b.0));
             let ((low, worst), (high, best)) = (found.first()?, found.last()?);
             Some(if found.len() == 1 {
+                let measured = rows.iter().filter(|row| row.technique == *technique);
+                let alone = match measured.count() {
+                    1 => "",
+                    _ => ", the only scene here that it can draw",
+                };
                 format!(
-                    "<b>{}</b> shows the right object on {} of the mirror pixels of <i>{}</i>, the only scene here that it can draw.",
+                    "<b>{}</b> shows the right object on {} of the mirror pixels of <i>{}</i>{alone}.",
                     escape(technique), percent(*low), escape(worst)
                 )
             } else {

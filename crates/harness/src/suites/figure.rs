@@ -27,6 +27,18 @@ pub struct Figure {
     pub analysis: fn(&Results<'_>) -> Vec<String>,
 }
 
+impl Figure {
+    /// The size of the pictures that are measured, where all points ask for the same one.
+    pub fn resolution(&self) -> Option<[u32; 2]> {
+        let mut sizes = self
+            .series
+            .iter()
+            .flat_map(|series| series.points.iter().map(|point| point.resolution));
+        let first = sizes.next()??;
+        sizes.all(|size| size == Some(first)).then_some(first)
+    }
+}
+
 /// Points of one kind, from left to right.
 #[derive(Clone, Debug)]
 pub struct Series {

@@ -39,6 +39,8 @@ struct Page<'p> {
 /// A figure as the template wants it.
 struct Shown<'p> {
     figure: &'p Figure,
+    /// The size of the measured pictures, where all have one that is not their scene's.
+    measured_at: Option<String>,
     analysis: Vec<String>,
     plots: Vec<Diagram>,
     quotes: Vec<Quotation<'p>>,
@@ -151,8 +153,10 @@ fn show<'p>(
     let pictured = points.filter(|point| point.picture);
     let rows = pictured.filter_map(|point| results.row(point));
     let rows = rows.filter(|row| row.status == Status::Ok);
+    let size = figure.resolution();
     Ok(Shown {
         figure,
+        measured_at: size.map(|[width, height]| format!("{width} × {height}")),
         analysis: (figure.analysis)(&results),
         plots: diagrams,
         quotes: quotes.collect(),

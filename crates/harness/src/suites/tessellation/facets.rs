@@ -36,12 +36,11 @@ pub fn facets(scene: &str) -> Figure {
         anchor: "facets",
         title: "A mirror of flat facets".to_owned(),
         after: "Szabo CESCG, Fig. 10b",
-        question: format!(
+        question:
             "The search assumes one reflection point for each vertex. In facets a vertex is seen several times, \
              or not at all where the best point is a crease; and on a facet all normals are the same. \
-             Does splitting triangles help? Measured at {} × {} pixels.",
-            SIZE[0], SIZE[1]
-        ),
+             Does splitting triangles help?"
+                .to_owned(),
         axis: named(
             "tessellation",
             &[NONE, "full, 2 levels", "adaptive, 2 levels"],

@@ -39,13 +39,6 @@ impl Place {
             ..Point::new(x, self.scene.clone(), technique)
         }
     }
-
-    /// The size, where it is not the scene's own.
-    fn words(&self) -> String {
-        self.size.map_or_else(String::new, |[width, height]| {
-            format!(" Measured at {width} × {height} pixels.")
-        })
-    }
 }
 
 /// CESCG Fig. 7.
@@ -61,10 +54,9 @@ pub fn coarse_and_fine(place: &Place) -> Figure {
         anchor: "table",
         title: "A coarse cloth and candlestick beside a fine teapot".to_owned(),
         after: "Szabo CESCG, Fig. 7",
-        question: format!(
-            "Adaptive tessellation should split the coarse models and leave the fine one alone.{}",
-            place.words()
-        ),
+        question:
+            "Adaptive tessellation should split the coarse models and leave the fine one alone."
+                .to_owned(),
         axis: named("tessellation", &[NONE, ADAPTIVE, "full, 4 levels"]),
         series: vec![series(SEARCH, points)],
         quantities: quantities([
@@ -159,8 +151,7 @@ pub fn thresholds(place: &Place) -> Figure {
         after: "Szabo CESCG, Fig. 8",
         question: format!(
             "The threshold decides between accuracy and time; up to {LEVELS} levels. At 0 every triangle is \
-             split: full tessellation.{}",
-            place.words()
+             split: full tessellation."
         ),
         axis: named("threshold", &THRESHOLDS),
         series: vec![series(ADAPTIVE, points)],
@@ -247,8 +238,7 @@ pub fn counts(place: &Place) -> Figure {
         after: "Szabo CESCG, Fig. 9",
         question: format!(
             "How many triangles (three vertices each, as the papers draw them) and how many searches a level \
-             limit leads to; adaptive at a threshold of {THRESHOLD}.{}",
-            place.words()
+             limit leads to; adaptive at a threshold of {THRESHOLD}."
         ),
         axis: Axis::linear("level limit"),
         series: three_modes(LEVELS, |x, technique| place.point(x, technique)),

@@ -2,9 +2,10 @@
 
 use crate::ReflectError;
 use crate::gpu::Gpu;
-use crate::primary::Primary;
 use crate::recorder::{Begin, Recorder};
-use crate::resources::{FLOAT4, RasterTargets, Slot, group, layout, module, raster, target, view};
+use crate::resources::{
+    DEPTH, FLOAT4, RasterTargets, Slot, group, layout, module, raster, target, view,
+};
 use crate::world::World;
 
 /// The pass `gbuffer` and its targets.
@@ -72,12 +73,16 @@ impl GBuffer {
         })
     }
 
-    /// Draws every mirror over the depth of the objects.
-    pub(crate) fn record(&self, frame: &mut Recorder<'_>, world: &World, primary: &Primary) {
+    /// Draws every mirror over a depth, such as that of the objects.
+    pub(crate) fn record(
+        &self,
+        frame: &mut Recorder<'_>,
+        world: &World,
+        depth: (&wgpu::Texture, Begin),
+    ) {
         let targets = [view(&self.position), view(&self.normal)];
         let targets = [&targets[0], &targets[1]];
-        let depth = Some((&primary.depth, Begin::Keep));
-        frame.render("gbuffer", &targets, Begin::Clear, depth, |pass| {
+        frame.render("gbuffer", &targets, Begin::Clear, Some(depth), |pass| {
             for (mirror, group) in world.mirrors.iter().zip(&self.draw_groups) {
                 pass.set_pipeline(if mirror.exact {
                     &self.exact
@@ -90,6 +95,29 @@ impl GBuffer {
                 pass.draw(0..mirror.vertex_count, 0..1);
             }
         });
+    }
+}
+
+/// A G-buffer of the mirrors alone, as if no object stood before them.
+///
+/// A walk over the image that goes on beyond what the mirror shows must not end at the outline of
+/// an object, either: the reflection point may lie on the object's other side, or behind it.
+pub(crate) struct MirrorsAlone {
+    pub gbuffer: GBuffer,
+    depth: wgpu::Texture,
+}
+
+impl MirrorsAlone {
+    pub(crate) fn new(gpu: &Gpu, world: &World) -> Result<Self, ReflectError> {
+        Ok(Self {
+            gbuffer: GBuffer::new(gpu, world)?,
+            depth: target(gpu, "depth of the mirrors alone", world.size, DEPTH),
+        })
+    }
+
+    /// Draws every mirror.
+    pub(crate) fn record(&self, frame: &mut Recorder<'_>, world: &World) {
+        (self.gbuffer).record(frame, world, (&self.depth, Begin::Clear));
     }
 }
 

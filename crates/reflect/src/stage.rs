@@ -10,7 +10,7 @@ use crate::composite::{Composite, Reflections};
 use crate::gbuffer::GBuffer;
 use crate::gpu::Gpu;
 use crate::primary::Primary;
-use crate::recorder::Recorder;
+use crate::recorder::{Begin, Recorder};
 use crate::spec::Options;
 use crate::technique::Variant;
 use crate::world::World;
@@ -51,7 +51,8 @@ impl Stage {
     /// Primary picture and mirror G-buffer.
     pub(crate) fn begin(&self, frame: &mut Recorder<'_>, variant: Variant) {
         self.primary.record(frame, &self.world, variant);
-        self.gbuffer.record(frame, &self.world, &self.primary);
+        let depth = (&self.primary.depth, Begin::Keep);
+        self.gbuffer.record(frame, &self.world, depth);
     }
 
     /// The picture with its reflections.

@@ -113,11 +113,11 @@ impl Pipelines {
         })
     }
 
-    /// Records the pass `search`: one thread a point.
+    /// Records the pass `search`: one thread a point. `on` is the mirror, as group 1.
     fn record(
         &self,
         frame: &mut Recorder<'_>,
-        (stage, mirror): (&Stage, usize),
+        (stage, on): (&Stage, &wgpu::BindGroup),
         points: &Points,
         own: &wgpu::BindGroup,
         variant: Variant,
@@ -128,7 +128,7 @@ impl Pipelines {
                 Variant::Color => &self.plain,
             });
             pass.set_bind_group(0, &stage.world.view_group, &[]);
-            pass.set_bind_group(1, &stage.gbuffer.mirror_groups[mirror], &[]);
+            pass.set_bind_group(1, on, &[]);
             pass.set_bind_group(2, &points.group, &[]);
             pass.set_bind_group(3, own, &[]);
             points.run(pass);

@@ -155,7 +155,8 @@ impl Search for ReflectorCubemap {
         variant: Variant,
     ) {
         let own = &self.mirrors[mirror].group;
-        (self.pipelines).record(frame, (stage, mirror), points, own, variant);
+        let on = &stage.gbuffer.mirror_groups[mirror];
+        (self.pipelines).record(frame, (stage, on), points, own, variant);
     }
 }
 

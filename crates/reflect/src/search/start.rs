@@ -1,11 +1,12 @@
-//! Searches on the G-buffer that start at one texel for all vertices: the mirror's texel nearest to
-//! the projection of its centre, or of its bounding box, found by the pass `start` (`start.wesl`).
+//! Searches on the image that start at one texel for all vertices: the mirror's texel nearest to the
+//! projection of its centre, or of its bounding box, found by the pass `start` (`start.wesl`).
 
 use catoptric_scene::{Mirror, View};
 use glam::{DVec2, Vec2};
 
 use super::{Context, Pipelines, Search};
 use crate::ReflectError;
+use crate::gbuffer::{GBuffer, MirrorsAlone};
 use crate::gpu::Gpu;
 use crate::points::Points;
 use crate::recorder::Recorder;
@@ -62,7 +63,8 @@ impl Search for FromStart {
         variant: Variant,
     ) {
         let own = &self.starts.groups[mirror];
-        (self.pipelines).record(frame, (stage, mirror), points, own, variant);
+        let on = &self.starts.gbuffer(stage).mirror_groups[mirror];
+        (self.pipelines).record(frame, (stage, on), points, own, variant);
     }
 
     fn uses_previous(&self) -> bool {
@@ -77,6 +79,8 @@ struct Starts {
     /// One a mirror.
     groups: Vec<wgpu::BindGroup>,
     from_bounds: bool,
+    /// What is searched where vertices are continued; else the stage's G-buffer.
+    alone: Option<MirrorsAlone>,
     nearest: wgpu::ComputePipeline,
     choose: wgpu::ComputePipeline,
     mirrors: Vec<Start>,
@@ -91,7 +95,7 @@ struct Start {
 }
 
 impl Starts {
-    /// Reads the option `start`: `bounds`, or anything else for the centre.
+    /// Reads the options `start`, `bounds` or anything else for the centre, and `hidden`.
     fn new(context: &Context<'_>) -> Result<Self, ReflectError> {
         let Context {
             gpu,
@@ -100,6 +104,7 @@ impl Starts {
             ..
         } = context;
         let from_bounds = options.is("start", "bounds");
+        let alone = (options.is("hidden", "extend")).then(|| MirrorsAlone::new(gpu, &stage.world));
         let find = layout(gpu, "start found", &[Slot::Uniform, Slot::Write]);
         let read = layout(gpu, "start", &[Slot::Read]);
         let module = module(gpu, "start", &[])?;
@@ -124,6 +129,7 @@ impl Starts {
             groups: texels.map(|texel| group(gpu, &read, &[texel])).collect(),
             layout: read,
             from_bounds,
+            alone: alone.transpose()?,
             nearest: compute(gpu, &module, "nearest", &layouts),
             choose: compute(gpu, &module, "choose", &layouts),
             mirrors,
@@ -145,12 +151,22 @@ impl Starts {
         }
     }
 
-    /// Records the pass `start`.
+    /// What the search reads.
+    fn gbuffer<'s>(&'s self, stage: &'s Stage) -> &'s GBuffer {
+        let alone = self.alone.as_ref();
+        alone.map_or(&stage.gbuffer, |alone| &alone.gbuffer)
+    }
+
+    /// Records the pass `start`, and what it reads where that is not the stage's.
     fn record(&self, frame: &mut Recorder<'_>, stage: &Stage) {
+        if let Some(alone) = &self.alone {
+            alone.record(frame, &stage.world);
+        }
+        let mirrors = &self.gbuffer(stage).mirror_groups;
         let [width, height] = stage.world.size.map(|side| side.div_ceil(GROUP));
         frame.compute("start", |pass| {
             pass.set_bind_group(0, &stage.world.view_group, &[]);
-            for (start, mirror) in self.mirrors.iter().zip(&stage.gbuffer.mirror_groups) {
+            for (start, mirror) in self.mirrors.iter().zip(mirrors) {
                 pass.set_bind_group(1, mirror, &[]);
                 pass.set_bind_group(2, &start.find, &[]);
                 for pipeline in [&self.nearest, &self.choose] {

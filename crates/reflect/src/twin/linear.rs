@@ -9,6 +9,7 @@ struct Walk<'a> {
     gbuffer: &'a GBuffer,
     cross: bool,
     eight: bool,
+    extend: bool,
 }
 
 /// What `linear.wesl` hands over.
@@ -50,7 +51,11 @@ impl Walk<'_> {
         let point = self.gbuffer.position(texel);
         let normal = self.gbuffer.normal(texel);
         let towards_eye = (self.gbuffer.eye - point).normalize();
-        let bisector = (towards_eye + (vertex - point).normalize()).normalize();
+        let mut to_vertex = vertex - point;
+        if self.extend {
+            to_vertex -= 2.0 * to_vertex.dot(normal).min(0.0) * normal;
+        }
+        let bisector = (towards_eye + to_vertex.normalize()).normalize();
         let cosine = bisector.dot(normal);
         if self.cross {
             let sine = bisector.cross(normal).length();
@@ -118,7 +123,13 @@ mod tests {
         let searched = Searched::new(&gpu, &scene, &technique, size);
         let (mut same, mut count) = (0, 0);
         for (mirror, points) in searched.batches.iter().enumerate() {
-            let gbuffer = GBuffer::read(&gpu, &searched.stage, mirror);
+            let extend = options.contains("extend");
+            let read = if extend {
+                GBuffer::alone
+            } else {
+                GBuffer::read
+            };
+            let gbuffer = read(&gpu, &searched.stage, mirror);
             let view = scene.camera.view(size);
             let center = scene.mirrors[mirror].shape.center();
             let (wanted, _) = view.project(center).expect("in front of the eye");
@@ -127,6 +138,7 @@ mod tests {
                 gbuffer: &gbuffer,
                 cross: options.contains("cross"),
                 eight: options.contains("=8"),
+                extend,
             };
             let positions = vertices(&searched.stage);
             let found = points.read_found(&gpu, positions.len() as u32);
@@ -152,6 +164,8 @@ mod tests {
             ("prototype-bowl", "residual=cross", [256, 256]),
             ("sphere-objects-20k", "neighbours=8", [160, 120]),
             ("spheres", "residual=dot", [160, 120]),
+            ("sphere-touching", "hidden=extend", [160, 120]),
+            ("kitchen", "hidden=extend,residual=cross", [160, 120]),
         ] {
             let Some((share, count)) = agreement(name, options, size) else {
                 return;

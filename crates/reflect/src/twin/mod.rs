@@ -9,8 +9,11 @@ mod tessellation;
 
 use glam::{IVec2, Vec3, Vec4};
 
+use crate::gbuffer::{self, MirrorsAlone};
 use crate::gpu::Gpu;
+use crate::recorder::Recorder;
 use crate::stage::Stage;
+use crate::timing::Timer;
 
 /// `shared/mirror.wesl`: the G-buffer of one mirror.
 pub(crate) struct GBuffer {
@@ -27,6 +30,23 @@ const SIDE_BACK: f32 = 2.0;
 impl GBuffer {
     /// The G-buffer of the frame rendered last, as `mirror` (an index) sees it.
     pub(crate) fn read(gpu: &Gpu, stage: &Stage, mirror: usize) -> Self {
+        Self::copy(gpu, stage, &stage.gbuffer, mirror)
+    }
+
+    /// As if no object stood before the mirrors.
+    pub(crate) fn alone(gpu: &Gpu, stage: &Stage, mirror: usize) -> Self {
+        let alone = MirrorsAlone::new(gpu, &stage.world).expect("fits the device");
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let mut unstamped = Timer::none();
+        alone.record(
+            &mut Recorder::new(&mut encoder, &mut unstamped),
+            &stage.world,
+        );
+        gpu.queue.submit([encoder.finish()]);
+        Self::copy(gpu, stage, &alone.gbuffer, mirror)
+    }
+
+    fn copy(gpu: &Gpu, stage: &Stage, gbuffer: &gbuffer::GBuffer, mirror: usize) -> Self {
         let read = |texture| {
             let texels = gpu.read_texture(texture);
             texels.into_iter().map(Vec4::from_array).collect()
@@ -35,8 +55,8 @@ impl GBuffer {
             size: IVec2::from_array(stage.world.size.map(|side| side as i32)),
             eye: stage.world.scene.camera.eye.as_vec3(),
             mirror_id: stage.world.mirrors[mirror].id,
-            position: read(&stage.gbuffer.position),
-            normal: read(&stage.gbuffer.normal),
+            position: read(&gbuffer.position),
+            normal: read(&gbuffer.normal),
         }
     }
 

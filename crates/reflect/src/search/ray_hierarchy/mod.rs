@@ -95,7 +95,8 @@ impl Search for RayHierarchy {
         if self.built.replace(Some(mirror)) != Some(mirror) {
             self.pyramid.record(frame, stage, mirror);
         }
-        (self.pipelines).record(frame, (stage, mirror), points, &self.own, variant);
+        let on = &stage.gbuffer.mirror_groups[mirror];
+        (self.pipelines).record(frame, (stage, on), points, &self.own, variant);
     }
 
     fn has_holes(&self) -> bool {

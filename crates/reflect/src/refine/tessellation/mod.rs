@@ -85,6 +85,9 @@ pub(crate) struct Leaf {
     pub piece: Piece,
     /// World-space corners.
     pub corners: [glam::Vec3; 3],
+    /// What their searches came to: one of `Found::…`.
+    #[cfg_attr(not(test), expect(dead_code, reason = "tests check `drawn` by them"))]
+    pub states: [u32; 3],
     /// It is drawn: all corners are reflected or, with `hidden=extend`, one is and none failed.
     pub drawn: bool,
 }
@@ -167,10 +170,12 @@ impl Tessellation {
                     }
                 };
                 let corners = piece.points.to_array().map(of);
+                let states = corners.map(|(_, state)| state);
                 each(Leaf {
                     piece,
                     corners: corners.map(|(position, _)| position),
-                    drawn: self.is_drawn(corners.map(|(_, state)| state)),
+                    states,
+                    drawn: self.is_drawn(states),
                 });
             }
         }

@@ -236,6 +236,42 @@ fn a_previous_frame_helps_the_scenes_own_vertices_alone() {
 }
 
 #[test]
+fn t_junctions_are_those_of_what_is_drawn_where_hidden_corners_are_continued() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let scene = scene("sphere-square");
+    let adaptive = "+adaptive(level=5,threshold=0.00003)";
+    for (hidden, continues) in [("drop", false), ("extend", true)] {
+        let technique = format!("linear(hidden={hidden}){adaptive}");
+        let made = Tessellated::new(&gpu, &scene, &technique, SIZE);
+        let mut leaves = made.leaves(&gpu, 0);
+        leaves.retain(|leaf| leaf.drawn);
+        let hidden = |leaf: &Leaf| leaf.states.contains(&Found::HIDDEN);
+        assert_eq!(leaves.iter().any(hidden), continues, "{technique}");
+        let shown = |leaf: &Leaf| leaf.states.contains(&Found::FOUND);
+        assert!(leaves.iter().all(shown), "{technique}");
+
+        // On the one object every corner that lies inside the edge of another triangle counts.
+        let inside = |point: Vec3, [a, b]: [Vec3; 2]| {
+            let across = (b - a).cross(point - a).length();
+            let along = (b - a).dot(point - a) / (b - a).length_squared();
+            across < 1e-6 && (1e-3..1.0 - 1e-3).contains(&along)
+        };
+        let edges = leaves.iter().flat_map(|leaf| {
+            let [a, b, c] = leaf.corners;
+            [[a, b], [b, c], [c, a]]
+        });
+        let edges: Vec<_> = edges.collect();
+        let mut corners: Vec<_> = leaves.iter().flat_map(|leaf| leaf.corners).collect();
+        corners.sort_by_key(|corner| corner.to_array().map(f32::to_bits));
+        corners.dedup();
+        corners.retain(|corner| edges.iter().any(|edge| inside(*corner, *edge)));
+        let count = output(&gpu, &scene, &technique).t_junctions;
+        assert_eq!(count, Some(corners.len() as u64), "{technique}");
+        assert!(count > Some(0), "{technique}");
+    }
+}
+
+#[test]
 fn neighbours_that_split_differently_meet_in_t_junctions() {
     let Some(gpu) = gpu_or_skip() else { return };
     let scene = scene("sphere-square");

@@ -236,6 +236,8 @@ pub(crate) struct ReflectorCubemapSettings {
     pub grow: f32,
     /// 1: start in the eye's direction, 0: at the bisector of the directions to eye and vertex.
     pub from_eye: u32,
+    /// 1: the mirror's normals point away from its centre, −1: towards it.
+    pub facing: f32,
 }
 
 /// Twin of `Place` in `grid.wesl`: where a vertex of the scene lies among what is searched.
@@ -420,7 +422,7 @@ mod tests {
             "reflector_cubemap",
             &[],
             "Settings",
-            [size, iterations, first_step, shrink, grow, from_eye]
+            [size, iterations, first_step, shrink, grow, from_eye, facing]
         );
         check!(GridPlace, "grid", &[], "Place", [local, cell]);
         check!(

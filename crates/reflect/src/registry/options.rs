@@ -109,7 +109,7 @@ pub(super) const REFLECTOR_CUBEMAP: &[OptionInfo] = &[
     words(
         "start",
         &["bisector", "eye"],
-        "the direction from the mirror's centre where a search starts: halfway between eye and vertex, or the eye's",
+        "the direction from the mirror's centre where a search starts (in a concave mirror the one against it): halfway between eye and vertex, or the eye's",
     ),
     number(
         "step",

@@ -21,8 +21,13 @@ use crate::stage::Stage;
 use crate::technique::Variant;
 use maps::Maps;
 
-/// Reads the search's options.
-fn settings(options: &Options) -> ReflectorCubemapSettings {
+/// Reads the search's options, for a mirror whose maps face this way ([`Maps::facing`]).
+///
+/// Where normals point inwards, the surface whose normal is the bisector lies in the direction
+/// against it. The field so turned has its sinks at the inverted images: in front of a point beyond
+/// the focus the bisector turns less along the mirror than the normal, in front of a nearer one more,
+/// so that each step leads away from the upright image.
+fn settings(options: &Options, facing: f32) -> ReflectorCubemapSettings {
     ReflectorCubemapSettings {
         size: options.whole("size"),
         iterations: options.whole("iterations"),
@@ -30,6 +35,7 @@ fn settings(options: &Options) -> ReflectorCubemapSettings {
         shrink: options.number("shrink") as f32,
         grow: options.number("grow") as f32,
         from_eye: u32::from(options.is("start", "eye")),
+        facing,
     }
 }
 
@@ -42,8 +48,7 @@ pub(crate) fn objection(_: &Options, scene: &Scene) -> Option<String> {
 }
 
 struct ReflectorCubemap {
-    size: u32,
-    settings: wgpu::Buffer,
+    options: Options,
     layout: wgpu::BindGroupLayout,
     pipelines: Pipelines,
     mirrors: Vec<OnGpu>,
@@ -73,10 +78,8 @@ impl ReflectorCubemap {
         let layout = layout(gpu, "reflector cube maps", &slots);
         let extend = options.is("hidden", "extend").then_some("extend");
         let features: Vec<_> = extend.into_iter().collect();
-        let settings = settings(options);
         let mut made = Self {
-            size: settings.size,
-            settings: uniform(gpu, &settings),
+            options: (*options).clone(),
             pipelines: Pipelines::new(context, "reflector_cubemap", &features, &layout)?,
             layout,
             mirrors: Vec::new(),
@@ -90,7 +93,8 @@ impl ReflectorCubemap {
     /// Makes the maps of a mirror.
     fn build(&mut self, gpu: &Gpu, mirror: &Mirror) -> OnGpu {
         self.builds += 1;
-        let maps = Maps::new(&mirror.shape, self.size);
+        let maps = Maps::new(&mirror.shape, self.options.whole("size"));
+        let settings = uniform(gpu, &settings(&self.options, maps.facing));
         let views = [&maps.positions, &maps.normals].map(|texels| {
             let texture = faces(gpu, maps.size, texels);
             texture.create_view(&wgpu::TextureViewDescriptor {
@@ -99,7 +103,7 @@ impl ReflectorCubemap {
             })
         });
         let resources = [
-            self.settings.as_entire_binding(),
+            settings.as_entire_binding(),
             wgpu::BindingResource::TextureView(&views[0]),
             wgpu::BindingResource::TextureView(&views[1]),
         ];
@@ -210,12 +214,13 @@ mod tests {
     }
 
     #[test]
-    fn scenes_with_open_or_concave_mirrors_are_refused_by_name() {
+    fn scenes_with_mirrors_that_no_closed_shape_stands_for_are_refused_by_name() {
         let spec = parse("reflector-cubemap").expect("a technique");
         let why = |name: &str| objection(spec.options(), &scene(name));
         assert_eq!(why("spheres"), None);
         assert_eq!(why("ellipsoid"), None);
+        assert_eq!(why("bowl"), None);
         assert!(why("planar").is_some_and(|why| why.contains("open")));
-        assert!(why("bowl").is_some_and(|why| why.contains("concave")));
+        assert!(why("torus").is_some_and(|why| why.contains("whole")));
     }
 }

@@ -5,7 +5,8 @@
 //! grid over each face, those of the outer rows exactly on the cube's edges: neighbouring faces
 //! share these, so that bilinear interpolation is continuous across seams and never reads two
 //! faces. A sphere's or an ellipsoid's texels are exact; a mesh's are the points and interpolated
-//! normals of its triangles, however finely it is drawn.
+//! normals of its triangles, however finely it is drawn. An open mirror has the maps of the closed
+//! shape that it was cut from (§6.2): a bowl those of its whole sphere, seen from inside.
 //!
 //! Face `2k` looks along axis `k` (x, y, z), face `2k + 1` against it. Coordinates on a face are
 //! the direction's components along axes `k + 1` and `k + 2` (cyclic) where that along `k` is ±1.
@@ -27,20 +28,23 @@ pub(crate) struct Maps {
     pub size: u32,
     /// World-space offset from the mirror's centre; w is 0.
     pub positions: Vec<[f32; 4]>,
-    /// Unit, outwards; w is 0.
+    /// Unit, on the reflecting side; w is 0.
     pub normals: Vec<[f32; 4]>,
+    /// 1 where normals point away from the centre, −1 where they point towards it.
+    pub facing: f32,
 }
 
 /// Why a mirror has no cube maps; `None` if it has.
 pub(crate) fn objection(shape: &Shape) -> Option<&'static str> {
     match shape {
-        Shape::Sphere { .. } | Shape::Ellipsoid { .. } => None,
-        Shape::Plane { .. } | Shape::Saddle { .. } => Some("is open, and needs to be closed"),
-        Shape::Torus { .. } => Some("is not seen whole from its centre, as a cube map needs"),
-        Shape::Bowl { .. } => {
-            Some("is concave, where the bisector need not lead to the reflection point")
+        Shape::Sphere { .. } | Shape::Ellipsoid { .. } | Shape::Bowl { .. } => None,
+        Shape::Plane { .. } | Shape::Saddle { .. } => {
+            Some("is open, and no closed shape stands for it that a centre sees whole")
         }
-        Shape::Mesh(mesh) if !mesh.is_closed() => Some("is open, and needs to be closed"),
+        Shape::Torus { .. } => Some("is not seen whole from its centre, as a cube map needs"),
+        Shape::Mesh(mesh) if !mesh.is_closed() => {
+            Some("is open, and no closed shape stands for it")
+        }
         Shape::Mesh(mesh) if !is_star_shaped(mesh, shape.center()) => {
             Some("is not seen whole from its centre, as a cube map needs")
         }
@@ -87,15 +91,22 @@ impl Maps {
     /// # Panics
     /// On a shape to which there is an [`objection`].
     pub(crate) fn new(shape: &Shape, size: u32) -> Self {
-        let texels = match shape {
-            Shape::Mesh(mesh) => of_mesh(mesh, shape.center(), size),
-            _ => of_surface(shape, size),
+        let (texels, facing) = match shape {
+            Shape::Mesh(mesh) => (of_mesh(mesh, shape.center(), size), 1.0),
+            Shape::Bowl { center, radius, .. } => {
+                let (center, radius) = (*center, *radius);
+                (of_surface(&Shape::Sphere { center, radius }, size), -1.0)
+            }
+            _ => (of_surface(shape, size), 1.0),
         };
         let four = |v: DVec3| [v.x as f32, v.y as f32, v.z as f32, 0.0];
         Self {
             size,
             positions: texels.iter().map(|texel| four(texel.position)).collect(),
-            normals: texels.iter().map(|texel| four(texel.normal)).collect(),
+            normals: (texels.iter())
+                .map(|texel| four(f64::from(facing) * texel.normal))
+                .collect(),
+            facing,
         }
     }
 }
@@ -267,14 +278,32 @@ mod tests {
     }
 
     #[test]
-    fn open_concave_and_winding_mirrors_are_refused() {
+    fn a_bowl_has_the_maps_of_its_sphere_from_inside() {
+        let center = DVec3::new(0.3, -2.0, 1.0);
+        let radius = 1.5;
+        let bowl = Shape::Bowl {
+            center,
+            radius,
+            axis: DVec3::NEG_Z,
+            half_angle: 1.0,
+        };
+        let (sphere, bowl) = (Shape::Sphere { center, radius }, bowl);
+        let [outside, inside] = [sphere, bowl].map(|shape| Maps::new(&shape, SIZE));
+        assert_eq!(inside.positions, outside.positions);
+        let turned = outside.normals.iter().map(|normal| normal.map(|c| -c));
+        assert!(inside.normals.iter().copied().eq(turned));
+        assert_eq!([outside.facing, inside.facing], [1.0, -1.0]);
+    }
+
+    #[test]
+    fn open_inside_out_and_winding_mirrors_are_refused() {
         let plane = Shape::Plane {
             center: DVec3::ZERO,
             normal: DVec3::Y,
             up: DVec3::X,
             size: glam::DVec2::ONE,
         };
-        assert!(objection(&plane).is_some_and(|reason| reason.contains("closed")));
+        assert!(objection(&plane).is_some_and(|reason| reason.contains("open")));
         let mut open = ellipsoid().tessellate(16);
         open.triangles.pop();
         open.normals.pop();

@@ -84,12 +84,12 @@ impl CubemapWalk {
     /// # Panics
     /// On options of another technique, or a mirror that has no cube maps.
     pub fn new(options: &Options, scene: &Scene, mirror: usize) -> Self {
-        let settings = settings(options);
         let shape = &scene.mirrors[mirror].shape;
         assert_eq!(objection(shape), None);
+        let maps = Maps::new(shape, options.whole("size"));
         Self {
-            settings,
-            maps: Maps::new(shape, settings.size),
+            settings: settings(options, maps.facing),
+            maps,
             center: shape.center().as_vec3(),
             eye: (scene.camera.eye - shape.center()).as_vec3(),
             extend: options.is("hidden", "extend"),
@@ -148,7 +148,7 @@ impl CubemapWalk {
             to_vertex -= 2.0 * to_vertex.dot(surface.normal).min(0.0) * surface.normal;
         }
         let sum = to_eye + to_vertex / to_vertex.length().max(1e-30);
-        let turn = sum / sum.length().max(1e-30) - surface.normal;
+        let turn = self.settings.facing * (sum / sum.length().max(1e-30) - surface.normal);
         Field {
             step: (turn - turn[axis] / q[axis] * q) * q.length(),
             error: 0.25 * turn.dot(turn),
@@ -160,7 +160,7 @@ impl CubemapWalk {
         let middle = to_eye + vertex / vertex.length().max(1e-30);
         let at_middle = self.settings.from_eye == 0 && middle.length() > 1e-3;
         let mut begin = Start {
-            direction: if at_middle { middle } else { to_eye },
+            direction: self.settings.facing * if at_middle { middle } else { to_eye },
             continued: false,
         };
         if self.extend {
@@ -180,11 +180,11 @@ impl CubemapWalk {
             let bend = (bend / (aside * aside)).max(1e-6);
             let least = out * out - slope * slope / bend;
             let half = (bend * (1.0 - least)).max(0.0).sqrt();
-            let front = nearest - (slope + half) / bend * along;
-            if least < NEAR_MISS * NEAR_MISS && (vertex - front).dot(along) > 0.0 {
+            let met = nearest - (slope + self.settings.facing * half) / bend * along;
+            if least < NEAR_MISS * NEAR_MISS && (vertex - met).dot(along) > 0.0 {
                 begin.continued = true;
                 if least < 1.0 && self.settings.from_eye == 0 {
-                    begin.direction = front;
+                    begin.direction = met;
                 }
             }
         }

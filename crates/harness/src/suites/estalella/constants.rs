@@ -90,8 +90,11 @@ fn constant(anchor: &'static str, title: &str, option: &str, values: &[f64]) -> 
         title: title.to_owned(),
         after: "Estalella et al. 2005, section 4.3",
         question: format!(
-            "The paper adapts the length of the steps but gives no constants. `{option}` is varied here, the \
-             other constants as they are by default; nine steps."
+            "The paper adapts the length of the steps but gives no constants. By default the first step is \
+             0.5 projected bisectors long; the next one is 0.6 times as long where the field at the \
+             beginning of a step and halfway differ by more than half of the longer, 1.25 times where by \
+             less than a quarter, and always between 0.05 and 4. A search ends early where E < 1e-12. \
+             `{option}` is varied here; nine steps, maps of 256 × 256 texels a face."
         ),
         axis: Axis::linear(option),
         series: vec![

@@ -6,7 +6,7 @@ use encase::ShaderType;
 use glam::{DVec2, DVec3};
 
 use crate::ReflectError;
-use crate::data::{MirrorUniform, ViewUniform, diagonal};
+use crate::data::{MirrorUniform, ViewUniform, beyond, diagonal};
 use crate::gpu::Gpu;
 use crate::recorder::{Begin, Recorder};
 use crate::resources::{
@@ -150,6 +150,16 @@ impl CubeMaps {
         &self.wanted.centers[..self.wanted.traced]
     }
 
+    /// World distance at which the background is taken to be.
+    pub(crate) fn far(&self, scene: &Scene) -> f32 {
+        far(scene, &self.wanted)
+    }
+
+    /// The uniform `Maps`.
+    pub(crate) fn uniform(&self) -> wgpu::BindingResource<'_> {
+        self.uniform.as_entire_binding()
+    }
+
     /// Maps that rays are traced in.
     pub(crate) fn traced(&self) -> usize {
         self.wanted.traced
@@ -287,15 +297,21 @@ pub(crate) fn draw_now(gpu: &Gpu, record: impl FnOnce(&mut Recorder<'_>)) {
     gpu.queue.submit([encoder.finish()]);
 }
 
-/// The background lies where no object is from any centre inside the box around everything.
 fn maps_uniform(scene: &Scene, wanted: &Wanted) -> MapsUniform {
-    let diagonal = diagonal(scene);
     MapsUniform {
         size: wanted.size,
         count: wanted.traced as u32,
-        far: diagonal,
-        diagonal,
+        far: far(scene, wanted),
+        diagonal: diagonal(scene),
     }
+}
+
+/// The background lies where no object is, seen from any of the centres, and no nearer than the
+/// scene's diagonal.
+fn far(scene: &Scene, wanted: &Wanted) -> f32 {
+    let centers = wanted.centers.iter();
+    let beyond = centers.map(|center| beyond(scene, *center));
+    beyond.fold(diagonal(scene), f32::max)
 }
 
 fn center_texels(wanted: &Wanted) -> Vec<[f32; 4]> {

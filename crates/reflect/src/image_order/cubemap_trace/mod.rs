@@ -169,7 +169,7 @@ impl MirrorMaps {
         own_layout: &wgpu::BindGroupLayout,
     ) -> Result<Self, ReflectError> {
         let maps = CubeMaps::new(gpu, stage, wanted)?;
-        let pyramid = pyramid.then(|| Pyramid::new(gpu, &stage.world.scene, &maps));
+        let pyramid = pyramid.then(|| Pyramid::new(gpu, &maps));
         let pyramid = pyramid.transpose()?;
         let [colors, distances] = maps.views();
         // Where there is no pyramid or normal the shader does not look; some texture must be bound.
@@ -259,7 +259,8 @@ impl ImageOrder for CubemapTrace {
     fn distance_levels(&self, gpu: &Gpu, stage: &Stage) -> Option<Vec<DistanceLevel>> {
         let mirror = self.mirrors.first()?;
         let pyramid = mirror.pyramid.as_ref()?;
-        Some(pyramid.levels(gpu, &mirror.maps, diagonal(&stage.world.scene)))
+        let far = mirror.maps.far(&stage.world.scene);
+        Some(pyramid.levels(gpu, &mirror.maps, far))
     }
 
     fn notes(&self, gpu: &Gpu, stage: &Stage) -> Vec<String> {

@@ -1,14 +1,11 @@
 //! The acceleration pyramid: least and greatest world distance of 2 × 2 cells, level by level
 //! (Číž 2017, section 3.6).
 
-use catoptric_scene::Scene;
-
 use crate::ReflectError;
-use crate::data::diagonal;
 use crate::gpu::Gpu;
 use crate::image_order::cubemaps::{CubeMaps, FACES};
 use crate::recorder::Recorder;
-use crate::resources::{Slot, compute, group, layout, module, texture_array, uniform};
+use crate::resources::{Slot, compute, group, layout, module, texture_array};
 use crate::technique::DistanceLevel;
 
 /// Side of the pass's workgroups, in cells.
@@ -24,7 +21,7 @@ pub(crate) struct Pyramid {
 }
 
 impl Pyramid {
-    pub(crate) fn new(gpu: &Gpu, scene: &Scene, maps: &CubeMaps) -> Result<Self, ReflectError> {
+    pub(crate) fn new(gpu: &Gpu, maps: &CubeMaps) -> Result<Self, ReflectError> {
         let levels = maps.size().ilog2();
         let layers = maps.distances.depth_or_array_layers();
         let texture = texture_array(
@@ -45,7 +42,6 @@ impl Pyramid {
         };
         let slots = [Slot::Textures, Slot::WriteArray, Slot::Uniform];
         let layout = layout(gpu, "distance pyramid", &slots);
-        let far = uniform(gpu, &diagonal(scene));
         let groups = (0..levels).map(|level| {
             let finer = match level {
                 0 => level_view(&maps.distances, 0),
@@ -55,7 +51,7 @@ impl Pyramid {
             let resources = [
                 wgpu::BindingResource::TextureView(&finer),
                 wgpu::BindingResource::TextureView(&coarser),
-                far.as_entire_binding(),
+                maps.uniform(),
             ];
             group(gpu, &layout, &resources)
         });
@@ -72,7 +68,8 @@ impl Pyramid {
         })
     }
 
-    /// Reads back all levels, those of the single texels first; `maps` are those it was made for.
+    /// Reads back all levels, those of the single texels first; `maps` are those it was made for,
+    /// `far` is where they take the background to be.
     pub(crate) fn levels(&self, gpu: &Gpu, maps: &CubeMaps, far: f32) -> Vec<DistanceLevel> {
         let texel = |distance: f32| [if distance == 0.0 { far } else { distance }; 2];
         let texels = gpu.read_layers(&maps.distances, 0);

@@ -191,7 +191,7 @@ fn the_pyramid_is_that_of_the_cpu() {
     let maps = maps.expect("fits the device");
     draw_now(&gpu, |frame| maps.record(frame, &stage));
 
-    let far = crate::data::diagonal(&scene);
+    let far = maps.maps.far(&scene);
     let distances = gpu.read_layers(&maps.maps.distances, 0);
     assert!(distances.contains(&0.0), "the background is in view");
     assert!(distances.iter().all(|d| *d < far));

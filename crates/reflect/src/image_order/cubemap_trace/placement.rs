@@ -1,11 +1,12 @@
 //! Where a mirror's cube maps are taken from (Číž 2017, section 3.8): from where the scene file says,
 //! or near its surface, far from each other, the most successful first.
 //!
-//! Without a place in the file, candidates are tried out: small maps are drawn from each, and a small picture says for which
-//! mirror pixels the ray is resolved there with certainty (a sign change of Δ where the map is
-//! continuous). Then the maps are chosen greedily, each for the pixels that those before leave.
+//! Without a place in the file, candidates are tried out: small maps are drawn from each, with the
+//! mirrors where the traced maps show them, and a small picture says for which mirror pixels the ray
+//! is resolved there with certainty (a sign change of Δ where the map is continuous). Then the maps
+//! are chosen greedily, each for the pixels that those before leave.
 
-use catoptric_scene::{Mirror, Random, Scene, Shape};
+use catoptric_scene::{Mesh, Mirror, Random, Scene, Shape};
 use glam::DVec3;
 
 use super::march::Effort;
@@ -49,7 +50,7 @@ pub(crate) fn places(
             "random" => wanted,
             _ => CANDIDATES.max(wanted),
         };
-        candidates.push(self::candidates(mirror, outside, count, &mut rng));
+        candidates.push(self::candidates(scene, mirror, outside, count, &mut rng));
     }
     let covered = Trial::new(gpu, options, stage)?.covered(gpu, &candidates)?;
     let chosen = candidates.iter().zip(&covered).map(|(centers, covered)| {
@@ -84,9 +85,15 @@ pub(crate) fn objection(options: &Options, scene: &Scene) -> Option<String> {
     })
 }
 
-/// Points near a mirror's surface, the first one a good guess. Inside closed mirrors only where
-/// the maps do not show them (`outside` is false).
-fn candidates(mirror: &Mirror, outside: bool, count: usize, rng: &mut Random) -> Vec<DVec3> {
+/// Points near a mirror's surface, the first one a good guess; never behind a surface that stands
+/// before the mirror. Inside closed mirrors only where the maps do not show them (`outside` is false).
+fn candidates(
+    scene: &Scene,
+    mirror: &Mirror,
+    outside: bool,
+    count: usize,
+    rng: &mut Random,
+) -> Vec<DVec3> {
     let (low, high) = mirror.shape.bounds();
     let radius = (high - low).length() / 2.0;
     let mesh = mirror.shape.tessellate(mirror.tessellation.min(32));
@@ -95,7 +102,7 @@ fn candidates(mirror: &Mirror, outside: bool, count: usize, rng: &mut Random) ->
         Shape::Plane { center, normal, .. } => *center + 0.01 * radius * *normal,
         Shape::Bowl { center, .. } => *center,
         shape if inside => shape.center(),
-        _ => surface_point(&mesh, rng, 0.2 * radius),
+        _ => surface_point(scene, &mesh, rng, 0.2 * radius),
     };
     let mut points = vec![first];
     while points.len() < count {
@@ -104,18 +111,48 @@ fn candidates(mirror: &Mirror, outside: bool, count: usize, rng: &mut Random) ->
         } else {
             rng.between(0.02, 0.6)
         };
-        points.push(surface_point(&mesh, rng, height * radius));
+        points.push(surface_point(scene, &mesh, rng, height * radius));
     }
     points
 }
 
-/// A corner of a mesh, moved along its normal.
-fn surface_point(mesh: &catoptric_scene::Mesh, rng: &mut Random, height: f64) -> DVec3 {
+/// A corner of a mesh, moved along its normal, but not farther than halfway to what lies there.
+fn surface_point(scene: &Scene, mesh: &Mesh, rng: &mut Random, height: f64) -> DVec3 {
     let triangle = rng.below(mesh.triangles.len());
     let corner = rng.below(3);
     let position = mesh.positions[mesh.triangles[triangle][corner] as usize];
     let normal = mesh.normals[triangle][corner].as_dvec3();
-    position.as_dvec3() + height * normal
+    let (from, twice) = (position.as_dvec3(), 2.0 * height * normal);
+    from + 0.5 * free_part(scene, from, twice) * twice
+}
+
+/// The share of a way, from 0 to 1, that leads to the first object on it.
+fn free_part(scene: &Scene, from: DVec3, way: DVec3) -> f64 {
+    let objects = scene.objects.iter();
+    let hits = objects.flat_map(|object| {
+        let mesh = &object.mesh;
+        let corner = |index: u32| mesh.positions[index as usize].as_dvec3();
+        let triangles = mesh.triangles.iter();
+        triangles.filter_map(move |triangle| crossing(triangle.map(corner), from, way))
+    });
+    hits.fold(1.0, f64::min)
+}
+
+/// Where a way meets a triangle, as a share of the way (Möller and Trumbore 1997).
+fn crossing([a, b, c]: [DVec3; 3], from: DVec3, way: DVec3) -> Option<f64> {
+    let (ab, ac) = (b - a, c - a);
+    let across = way.cross(ac);
+    let volume = ab.dot(across);
+    if volume == 0.0 {
+        return None;
+    }
+    let off = from - a;
+    let u = off.dot(across) / volume;
+    let turned = off.cross(ab);
+    let v = way.dot(turned) / volume;
+    let t = ac.dot(turned) / volume;
+    let inside = u >= 0.0 && v >= 0.0 && u + v <= 1.0;
+    (inside && (0.0..=1.0).contains(&t)).then_some(t)
 }
 
 /// Indices of the candidates chosen, each covering the most of what is left; where nothing is left
@@ -163,11 +200,14 @@ impl<'a> Trial<'a> {
         let stage = Stage::new(gpu, options, &stage.world.scene, size)?;
         let own_layout = maps_layout(gpu, "trial", MORE);
         // Where any sign change counts, the first one must be a certain one.
-        let features: &[&str] = match options.text("accept") {
-            "any" => &["continuous", "strict"],
-            _ => &["continuous"],
-        };
-        let rays = Effort::new(gpu, features, &stage, &own_layout)?;
+        let mut features = vec!["continuous"];
+        if options.is("accept", "any") {
+            features.push("strict");
+        }
+        if options.whole("bounces") > 1 {
+            features.push("bounce");
+        }
+        let rays = Effort::new(gpu, &features, &stage, &own_layout)?;
         draw_now(gpu, |frame| stage.begin(frame, Variant::Color));
         Ok(Self {
             options,
@@ -185,14 +225,13 @@ impl<'a> Trial<'a> {
     ) -> Result<Vec<Vec<Vec<bool>>>, ReflectError> {
         let trace = TraceUniform {
             step: TRIAL_STEP,
-            bounces: 1,
             ..super::trace_uniform(self.options, &self.stage.world.scene)
         };
         let wanted = |center: DVec3| Wanted {
             size: TRIAL_TEXELS,
             centers: vec![center],
             traced: 1,
-            mirrors: false,
+            mirrors: self.options.whole("bounces") > 1,
         };
         let effort = target(gpu, "trial", self.stage.world.size, FLOAT4);
         let mut covered = vec![Vec::new(); candidates.len()];
@@ -238,6 +277,31 @@ mod tests {
     use super::*;
 
     #[test]
+    #[test]
+    fn no_candidate_lies_behind_a_wall() {
+        let scene = crate::testing::scene("box");
+        let (low, high) = (DVec3::new(-1.4, 0.0, -1.4), DVec3::new(1.4, 2.2, 4.0));
+        for outside in [false, true] {
+            let mut rng = Random::new(SEED);
+            let points = candidates(&scene, &scene.mirrors[0], outside, 64, &mut rng);
+            for point in points {
+                // The ball touches the floor.
+                let within = point.cmpge(low).all() && point.cmple(high).all();
+                assert!(within, "{point}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_way_is_free_up_to_the_first_object_on_it() {
+        let scene = crate::testing::scene("box");
+        let from = DVec3::new(0.3, 1.9, 1.5);
+        // The ceiling is 2.2 high.
+        let part = |way| free_part(&scene, from, way);
+        assert!((part(DVec3::Y) - 0.3).abs() < 1e-6);
+        assert_eq!(part(0.2 * DVec3::Y), 1.0);
+    }
+
     fn the_second_map_is_chosen_for_what_the_first_leaves() {
         let centers = [DVec3::ZERO, DVec3::X, DVec3::Y];
         let covered = [

@@ -85,8 +85,10 @@ pub struct Triangles {
 /// front is seen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Traced {
-    /// Samples of distance maps.
+    /// As [`Work::samples`].
     pub samples: Image<u32>,
+    /// As [`Work::node_tests`].
+    pub node_tests: Image<u32>,
     /// Steps skipped by an acceleration structure.
     pub skips: Image<u32>,
     /// Rays followed: 1, and one more for each mirror that a ray met.
@@ -112,9 +114,13 @@ pub struct Work {
     pub evaluations: Option<f64>,
     /// Moves of an iterative search.
     pub steps: Option<f64>,
-    /// Hierarchy nodes tested.
+    /// Hierarchy nodes tested; of cubemap tracing, cells of a pyramid of distances whose least and
+    /// greatest distance is looked up.
     pub node_tests: Option<f64>,
-    /// Map samples along traced rays.
+    /// Places of cube maps looked up for a ray, whatever for: on its way, to narrow a hit down, to
+    /// see whether a map is continuous, or to fill what no map resolves. A place looked up twice
+    /// counts twice; what a map holds there beside the distance (colour, normal) comes with it, and so
+    /// do the neighbours that it is blended from.
     pub samples: Option<f64>,
     /// Steps skipped by an acceleration structure.
     pub skips: Option<f64>,

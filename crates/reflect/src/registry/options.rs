@@ -268,7 +268,7 @@ pub(super) const CUBEMAP_TRACE: &[OptionInfo] = &[
     number(
         "step",
         0.001,
-        [0.000_01, 0.5],
+        [0.000_02, 0.5],
         "step, as a share of the ray's length (or of its angle)",
     ),
     number(

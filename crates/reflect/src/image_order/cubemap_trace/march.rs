@@ -108,7 +108,7 @@ impl Effort {
         Self(Pass::new(gpu, stage, module, ("effort", 1), own_layout))
     }
 
-    /// Writes samples, skips, resolving map, rays.
+    /// Writes what [`traced`] reads.
     pub(crate) fn record(
         &self,
         frame: &mut Recorder<'_>,
@@ -121,7 +121,16 @@ impl Effort {
     }
 }
 
-/// What the texels of an effort image say; a pixel has been traced if it has rays.
+/// Twin of `RAY` in `shared/rays.wesl`.
+const RAY: usize = 256;
+
+/// Whether the texel of an effort image is of a pixel that a map resolved.
+pub(crate) fn is_resolved(texel: &[f32; 4]) -> bool {
+    texel[3] as usize % RAY > 0
+}
+
+/// What the texels of an effort image say: samples, node tests, skips, and rays with the resolving map
+/// (from 1; 0 for none) in one. A pixel has been traced if it has rays.
 pub(crate) fn traced(size: [u32; 2], texels: &[[f32; 4]], maps: usize) -> Traced {
     let image = |channel: usize| {
         let values = texels.iter().map(|texel| texel[channel] as u32);
@@ -130,15 +139,17 @@ pub(crate) fn traced(size: [u32; 2], texels: &[[f32; 4]], maps: usize) -> Traced
     let mut resolved_by = vec![0; maps];
     let mut unresolved = 0;
     for texel in texels.iter().filter(|texel| texel[3] > 0.0) {
-        match texel[2] as usize {
+        match texel[3] as usize % RAY {
             0 => unresolved += 1,
             map => resolved_by[map - 1] += 1,
         }
     }
+    let rays = texels.iter().map(|texel| (texel[3] as usize / RAY) as u32);
     Traced {
         samples: image(0),
-        skips: image(1),
-        rays: image(3),
+        node_tests: image(1),
+        skips: image(2),
+        rays: Image::from_vec(size, rays.collect()),
         resolved_by,
         unresolved,
     }

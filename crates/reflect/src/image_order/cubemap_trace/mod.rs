@@ -61,7 +61,7 @@ struct CubemapTrace {
     mirrors: Vec<MirrorMaps>,
     tracer: Tracer,
     fill: Option<Fill>,
-    /// Samples, skips, resolving map, rays; written with all layers.
+    /// What rays took, as [`march::traced`] reads it; written with all layers.
     effort: wgpu::Texture,
 }
 
@@ -200,6 +200,10 @@ impl MirrorMaps {
 }
 
 impl CubemapTrace {
+    fn has_pyramid(&self) -> bool {
+        self.mirrors.iter().any(|mirror| mirror.pyramid.is_some())
+    }
+
     fn record_maps(&self, frame: &mut Recorder<'_>, stage: &Stage) {
         for mirror in &self.mirrors {
             mirror.record(frame, stage);
@@ -247,6 +251,7 @@ impl ImageOrder for CubemapTrace {
         };
         Work {
             samples: mean(&traced.samples),
+            node_tests: mean(&traced.node_tests).filter(|_| self.has_pyramid()),
             skips: mean(&traced.skips),
             ..Work::default()
         }

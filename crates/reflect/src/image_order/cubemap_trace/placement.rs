@@ -9,7 +9,7 @@
 use catoptric_scene::{Mesh, Mirror, Random, Scene, Shape};
 use glam::DVec3;
 
-use super::march::Effort;
+use super::march::{self, Effort};
 use super::{MORE, MirrorMaps, TraceUniform};
 use crate::ReflectError;
 use crate::gpu::Gpu;
@@ -263,8 +263,9 @@ impl<'a> Trial<'a> {
             let mirrors = gpu.read_texture(&self.stage.gbuffer.position);
             for (covered, mirror) in covered.iter_mut().zip(&self.stage.world.mirrors) {
                 let pixels = texels.iter().zip(&mirrors);
-                let resolved =
-                    pixels.map(|(effort, point)| point[3] == mirror.id as f32 && effort[2] > 0.0);
+                let resolved = pixels.map(|(effort, point)| {
+                    point[3] == mirror.id as f32 && march::is_resolved(effort)
+                });
                 covered.push(resolved.collect());
             }
         }
@@ -276,7 +277,6 @@ impl<'a> Trial<'a> {
 mod tests {
     use super::*;
 
-    #[test]
     #[test]
     fn no_candidate_lies_behind_a_wall() {
         let scene = crate::testing::scene("box");
@@ -302,6 +302,7 @@ mod tests {
         assert_eq!(part(0.2 * DVec3::Y), 1.0);
     }
 
+    #[test]
     fn the_second_map_is_chosen_for_what_the_first_leaves() {
         let centers = [DVec3::ZERO, DVec3::X, DVec3::Y];
         let covered = [

@@ -61,6 +61,7 @@ fn skipping_changes_nothing_and_saves_samples() {
             "{criterion}"
         );
         assert!(skipping.work.skips > Some(0.0) && every.work.skips == Some(0.0));
+        assert!(skipping.work.node_tests > skipping.work.skips);
     }
 }
 
@@ -139,6 +140,43 @@ fn what_is_counted_adds_up() {
     let mean = samples as f64 / traced.pixels() as f64;
     let samples = output.work.samples.expect("samples are counted");
     assert!((samples - mean).abs() < 1e-9 * mean);
+}
+
+#[test]
+fn looking_closer_at_a_sign_change_is_counted() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let scene = scene("sphere-table");
+    let samples = |accept| {
+        let technique =
+            format!("cubemap-trace(size=64,objects=1,placement=random,accept={accept})");
+        let output = render(&gpu, &scene, &technique);
+        let traced = output.traced.expect("rays are followed");
+        assert_eq!(output.work.node_tests, None, "there is no pyramid");
+        traced.samples
+    };
+    let (any, continuous) = (samples("any"), samples("continuous"));
+    let pairs = any.pixels().iter().zip(continuous.pixels());
+    let more = pairs
+        .filter(|(any, _)| **any > 0)
+        .map(|(any, more)| more - any);
+    let more: Vec<u32> = more.collect();
+    // Ten halvings, and the two ends of what they leave.
+    assert!(more.iter().all(|more| *more >= 12));
+    let at_once = more.iter().filter(|more| **more == 12).count();
+    assert!(2 * at_once > more.len(), "{at_once} of {}", more.len());
+}
+
+#[test]
+fn a_texel_is_looked_up_by_one_lane() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let scene = scene("sphere-table");
+    let technique =
+        |options| format!("cubemap-trace(size=64,objects=1,placement=random,accept=any,{options})");
+    let lanes = render(&gpu, &scene, &technique("stage=compute"));
+    let every = render(&gpu, &scene, &technique("sampling=texel"));
+    // What the lanes look up are texels that the ray passes, each once, and its start.
+    assert!(lanes.work.samples < every.work.samples);
+    assert!(lanes.work.samples >= Some(2.0) && lanes.work.node_tests > Some(1.0));
 }
 
 #[test]

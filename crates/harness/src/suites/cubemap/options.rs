@@ -4,7 +4,7 @@ use crate::plot::Axis;
 use crate::report::words::{percent, short};
 use crate::suites::{Figure, Quantity, Results};
 
-use super::{AGREEMENT, SAMPLES, by_scene, names, quantities};
+use super::{AGREEMENT, NODE_TESTS, NODES, SAMPLES, by_scene, names, quantities};
 
 /// Where one option is looked at.
 const SCENES: [&str; 2] = ["sphere-objects-1k", "box"];
@@ -115,7 +115,10 @@ const PYRAMIDS: [(&str, &str); 6] = [
 
 fn pyramids(scenes: &[&str]) -> Figure {
     let mut quantities = quantities();
-    quantities.push(Quantity::linear("skips per mirror pixel", "work.skips"));
+    quantities.extend([
+        NODES,
+        Quantity::linear("skips per mirror pixel", "work.skips"),
+    ]);
     let figure = Figure {
         analysis: |results| {
             let mut sentences = compared(results, &PYRAMIDS, 0, 1, |off, published| {
@@ -127,13 +130,16 @@ fn pyramids(scenes: &[&str]) -> Figure {
                 )
             });
             for series in results.series() {
-                let samples = |x: usize| results.value(&series.points[x], SAMPLES);
-                if let (Some(off), Some(sound)) = (samples(0), samples(2)) {
+                let value = |x: usize, path| results.value(&series.points[x], path);
+                let (off, sound) = (value(0, SAMPLES), value(2, SAMPLES));
+                if let (Some(off), Some(sound), Some(nodes)) = (off, sound, value(2, NODE_TESTS)) {
                     sentences.push(format!(
-                        "{}: the sound skip test leaves {} of {} samples a pixel.",
+                        "{}: the sound skip test leaves {} of {} samples a pixel, for looks at {} cells \
+                         of the pyramid.",
                         series.label,
                         short(sound),
-                        short(off)
+                        short(off),
+                        short(nodes)
                     ));
                 }
             }
@@ -182,13 +188,19 @@ const STAGES: [(&str, &str); 3] = [
 
 fn stages(scenes: &[&str]) -> Figure {
     let figure = figure(
+    let mut quantities = quantities();
+    quantities.push(NODES);
         "stages",
         "Fragments or compute shaders",
         "Číž 2017, section 3.7, Alg. 3",
         "The thesis left the compute version unfinished: 32 lanes a ray that test the cells of a level \
-         together. Its samples are cells tested, so they do not compare with the others'.",
+         together. Samples are distances looked up by any of them; where the lanes of a ray look at \
+         the same, it counts once.",
     );
-    values(figure, "stage", &STAGES, scenes)
+    Figure {
+        quantities,
+        ..values(figure, "stage", &STAGES, scenes)
+    }
 }
 
 /// The agreement of two values of an option on each scene, put into words.

@@ -7,7 +7,7 @@ use crate::suites::results::power;
 use crate::suites::{Ask, Figure, Quantity, Quote, Results, Series};
 
 use super::options::{cubemap, figure, values};
-use super::{AGREEMENT, ANGLE, FRAME_MS, SAMPLES, UNRESOLVED, point, quantities};
+use super::{AGREEMENT, ANGLE, FRAME_MS, FULL_AGREEMENT, SAMPLES, UNRESOLVED, point, quantities};
 
 pub fn figures(scene: Option<&str>, scenes: &[&str]) -> Vec<Figure> {
     vec![
@@ -28,6 +28,9 @@ const SWEPT: [(&str, &str); 2] = [
     ),
 ];
 
+/// The baseline's label and name.
+const ENVIRONMENT: &str = "environment-map";
+
 fn sweep(scenes: &[&str], xs: &[u32], option: &str, environment: bool) -> Vec<Series> {
     let mut series = Vec::new();
     for scene in scenes {
@@ -43,8 +46,8 @@ fn sweep(scenes: &[&str], xs: &[u32], option: &str, environment: bool) -> Vec<Se
         }
         if environment {
             series.push(Series {
-                label: format!("{scene}, environment-map"),
-                points: points(&|x| format!("environment-map({option}={x})")),
+                label: format!("{scene}, {ENVIRONMENT}"),
+                points: points(&|x| format!("{ENVIRONMENT}({option}={x})")),
             });
         }
     }
@@ -178,10 +181,11 @@ const THREE: usize = 1;
 const EIGHT: usize = 2;
 const FINE: usize = 3;
 
+/// A share of pixels below which agreement counts as unchanged along a sweep.
+const CHANGE: f64 = 0.003;
 /// A share of pixels below which more rays count as no better.
 const DEEPER: f64 = 0.002;
 
-const FULL: &str = "against_full.object_agreement";
 const FULL_ANGLE: &str = "against_full.angular_error_deg.p50";
 
 fn bounces(scene: Option<&str>) -> Figure {
@@ -197,7 +201,7 @@ fn bounces(scene: Option<&str>) -> Figure {
     );
     Figure {
         quantities: vec![
-            Quantity::linear("right object, mirrors in mirrors", FULL),
+            Quantity::linear("right object, mirrors in mirrors", FULL_AGREEMENT),
             Quantity::linear("right object, first bounce", AGREEMENT),
             Quantity::linear("share of pixels unresolved", UNRESOLVED),
             Quantity::log("samples per mirror pixel", SAMPLES),
@@ -213,9 +217,9 @@ fn limits(results: &Results<'_>) -> Vec<String> {
     let series = results.series().iter();
     let sentences = series.filter_map(|series| {
         let value = |place: usize, path| results.value(series.points.get(place)?, path);
-        let full = |place| value(place, FULL).map(percent);
+        let full = |place| value(place, FULL_AGREEMENT).map(percent);
         let open = value(THREE, UNRESOLVED).unwrap_or(0.0);
-        let deeper = match value(EIGHT, FULL)? - value(THREE, FULL)? < DEEPER {
+        let deeper = match value(EIGHT, FULL_AGREEMENT)? - value(THREE, FULL_AGREEMENT)? < DEEPER {
             true => "more rays bring nothing",
             false => "more rays help",
         };
@@ -237,45 +241,78 @@ fn limits(results: &Results<'_>) -> Vec<String> {
     sentences.collect()
 }
 
-/// How agreement and angle go from the first place to the last.
+/// Whether agreement rises along each series, whether it is above the environment map's, and how the
+/// angle goes.
 fn rising(results: &Results<'_>) -> Vec<String> {
-    let series = results.series().iter();
+    let traced = |series: &&Series| !series.label.ends_with(ENVIRONMENT);
+    let series = results.series().iter().filter(traced);
     let sentences = series.filter_map(|series| {
-        let ends = |path| {
-            let curve = results.curve(&series.label, path);
-            Some((curve.first()?.1, curve.last()?.1))
+        let agreement = values_of(results, &series.label, AGREEMENT);
+        let angle = values_of(results, &series.label, ANGLE);
+        let (first, last) = (*agreement.first()?, *agreement.last()?);
+        let steady = agreement.windows(2).all(|pair| pair[1] >= pair[0]);
+        let goes = if (last - first).abs() < CHANGE {
+            "hardly changes"
+        } else if last < first {
+            "falls"
+        } else if steady {
+            "rises at every place"
+        } else {
+            "rises, not at every place"
         };
-        let (low, high) = ends(AGREEMENT)?;
-        let (coarse, fine) = ends(ANGLE)?;
         Some(format!(
-            "{}: from the first to the last place the right object goes from {} to {} of the pixels, \
-             the median angle from {}° to {}°.",
+            "{}: the agreement {goes} ({} to {}{}); the median angle goes from {}° to {}°.",
             series.label,
-            percent(low),
-            percent(high),
-            short(coarse),
-            short(fine)
+            percent(first),
+            percent(last),
+            beside_environment(results, series, &agreement),
+            short(*angle.first()?),
+            short(*angle.last()?)
         ))
     });
     sentences.collect()
 }
 
-/// What keeps the last place of each series from showing the right object everywhere.
+/// The comparison with the environment map of the same scene; nothing where there is none.
+fn beside_environment(results: &Results<'_>, series: &Series, agreement: &[f64]) -> String {
+    let Some(point) = series.points.first() else {
+        return String::new();
+    };
+    let label = format!("{}, {ENVIRONMENT}", point.scene);
+    let environment = values_of(results, &label, AGREEMENT);
+    if environment.len() != agreement.len() {
+        return String::new();
+    }
+    let mut pairs = agreement.iter().zip(&environment);
+    let above = match pairs.all(|(ours, theirs)| ours > theirs) {
+        true => "above",
+        false => "not everywhere above",
+    };
+    let most = environment.iter().copied().fold(0.0, f64::max);
+    format!(", {above} the environment map's, at most {}", percent(most))
+}
+
+fn values_of(results: &Results<'_>, label: &str, path: &str) -> Vec<f64> {
+    let curve = results.curve(label, path).into_iter();
+    curve.map(|(_, value)| value).collect()
+}
+
+/// What keeps the last place of the series with the best criterion from showing the right object
+/// everywhere.
 fn wrong(results: &Results<'_>) -> Vec<String> {
     let series = results.series().iter();
-    let sentences = series.filter_map(|series| {
+    let best = series.filter(|series| series.label.ends_with(SWEPT[0].0));
+    let sentences = best.filter_map(|series| {
         let point = series.points.last()?;
         let value = |path| results.value(point, path);
-        let rim = value("mismatch.boundary")?;
-        let inside = value("mismatch.interior")?;
         let open = value(UNRESOLVED).unwrap_or(0.0);
         Some(format!(
             "{}: what keeps the last place below 1 are {} of the pixels beside the edge of another \
              object, where a texel is wider than a pixel, and {} elsewhere; {} are unresolved, the ray \
              being hidden from every map, {} show an object in place of the background.",
             series.label,
-            percent(rim),
-            percent(inside),
+            percent(value("mismatch.boundary")?),
+            percent(value("mismatch.interior")?),
             percent(open),
             percent(value("coverage.extra")?)
         ))

@@ -5,6 +5,7 @@ mod grid;
 mod heat;
 mod levels;
 mod options;
+mod skipped;
 mod sweeps;
 mod techniques;
 
@@ -40,19 +41,20 @@ const SIZE: [u32; 2] = [160, 120];
 
 fn pictures(studio: &Studio<'_>) -> anyhow::Result<Vec<Picture>> {
     let mut pictures = heat::pictures(studio)?;
+    pictures.extend(skipped::pictures(studio)?);
     pictures.extend(levels::pictures(studio)?);
     Ok(pictures)
 }
 
 const FRAME_MS: &str = "time_ms.frame.median";
 const AGREEMENT: &str = "object_agreement";
-const UNRESOLVED: &str = "coverage.unresolved";
-const SAMPLES: &str = "work.samples";
 /// Against the truth with mirrors in mirrors.
 const FULL_AGREEMENT: &str = "against_full.object_agreement";
+const UNRESOLVED: &str = "coverage.unresolved";
+const SAMPLES: &str = "work.samples";
+const NODE_TESTS: &str = "work.node_tests";
 const ANGLE: &str = "angular_error_deg.p50";
 const PIXELS: &str = "coverage.mirror_pixels";
-const NODE_TESTS: &str = "work.node_tests";
 
 fn figures(scene: Option<&str>, grid: grid::Grid) -> Vec<Figure> {
     let mut figures = vec![grid.figure(scene)];
@@ -77,14 +79,14 @@ fn names<'n>(label: &str, names: impl IntoIterator<Item = &'n str>) -> Axis {
     }
 }
 
-/// What is asked of every option: exactness, what is left open, work and time.
-fn quantities() -> Vec<Quantity> {
 /// Beside the samples, where a pyramid is looked at.
 const NODES: Quantity = Quantity::log(
     "cells of the pyramid looked at per mirror pixel",
     NODE_TESTS,
 );
 
+/// What is asked of every option: exactness, what is left open, work and time.
+fn quantities() -> Vec<Quantity> {
     vec![
         Quantity::linear("share of pixels with the right object", AGREEMENT),
         Quantity::linear("share of pixels unresolved", UNRESOLVED),

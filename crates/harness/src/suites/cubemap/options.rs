@@ -7,7 +7,7 @@ use crate::suites::{Figure, Quantity, Results};
 use super::{AGREEMENT, NODE_TESTS, NODES, SAMPLES, by_scene, names, quantities};
 
 /// Where one option is looked at.
-const SCENES: [&str; 2] = ["sphere-objects-1k", "box"];
+pub const SCENES: [&str; 2] = ["sphere-objects-1k", "box"];
 
 pub fn figures(scene: Option<&str>) -> Vec<Figure> {
     let own = scene.map(|scene| [scene]);
@@ -151,7 +151,8 @@ fn pyramids(scenes: &[&str]) -> Figure {
             "Číž 2017, Alg. 2 and 4, Fig. 5.1",
             "The published test compares a cell's range with the distances at both ends of the ray \
              in it, though the nearest point may lie between; the sound one takes that point, goes on \
-             at the next step, and skips only what has the sign of the sample before.",
+             at the next step, and skips only what has the sign of the sample before. Each picture \
+             says which pixels a test changes, all else being equal.",
         )
     };
     Figure {
@@ -187,9 +188,9 @@ const STAGES: [(&str, &str); 3] = [
 ];
 
 fn stages(scenes: &[&str]) -> Figure {
-    let figure = figure(
     let mut quantities = quantities();
     quantities.push(NODES);
+    let figure = figure(
         "stages",
         "Fragments or compute shaders",
         "Číž 2017, section 3.7, Alg. 3",

@@ -1,8 +1,8 @@
 //! How far reflected edges lie from where they should be.
 //!
 //! An edge point lies between two neighbouring mirror pixels that show different objects (the
-//! background counts as one). Straight edges that a technique fails to bend leave the truth's edge
-//! points far from its own.
+//! background counts as one). Straight edges that a technique fails to bend lie far from the truth's;
+//! so do the edges of cracks and of what is missing, which the truth does not have.
 
 use catoptric_frame::Reflected;
 
@@ -12,28 +12,40 @@ use crate::stats::Summary;
 /// Farther than any point of an image.
 const FAR: f64 = 1e15;
 
-/// Distances in pixels from every edge point of the reference to the nearest of the technique;
-/// `None` unless both have edges. The other way round is not asked: cracks and missing triangles
-/// have edges that are nobody's, and are counted as what they are.
+/// Distances in pixels from every edge point of the one picture to the nearest of the other, both
+/// ways; `None` unless both have edges. Where an object reaches the mirror's outline there is an
+/// edge to be near to, but none to ask for: the outline is the same in both.
 pub(crate) fn edge_offset(layers: &Layers) -> Option<Summary> {
-    let [reference, test] = [layers.reference, layers.test].map(|layer| edge_points(layers, layer));
-    if reference.is_empty() || test.is_empty() {
+    let pictures = [layers.reference, layers.test];
+    let edges = pictures.map(|layer| edge_points(layers, layer, false));
+    if edges.iter().any(Vec::is_empty) {
         return None;
     }
+    let [in_reference, in_test] = pictures.map(|layer| edge_points(layers, layer, true));
     let size = layers.size.map(|side| 2 * side as usize + 1);
-    let squares = distances(size, &test);
-    // The grid has two steps a pixel.
-    Summary::of((reference.iter()).map(|&point| squares[point].sqrt() / 2.0))
+    let from = |points: &[usize], to: &[usize]| -> Vec<f64> {
+        let squares = distances(size, to);
+        let points = points.iter();
+        // The grid has two steps a pixel.
+        points.map(|&at| squares[at].sqrt() / 2.0).collect()
+    };
+    Summary::of([from(&edges[0], &in_test), from(&edges[1], &in_reference)].concat())
 }
 
-/// Indices of a layer's edge points in a grid of half pixels, which has a point more each way.
-fn edge_points(layers: &Layers, layer: &Reflected) -> Vec<usize> {
+/// Indices of a layer's edge points in a grid of half pixels, which has a point more each way;
+/// `outline`: those where an object reaches the mirror's outline too.
+fn edge_points(layers: &Layers, layer: &Reflected, outline: bool) -> Vec<usize> {
     let [width, height] = layers.size.map(|side| side as usize);
     let id = |x: usize, y: usize| {
         let index = y * width + x;
         layers.mask.pixels()[index].then(|| layer.id.pixels()[index])
     };
-    let differ = |a: Option<u32>, b: Option<u32>| a.zip(b).is_some_and(|(a, b)| a != b);
+    let differ = |a: Option<u32>, b: Option<u32>| match (a, b) {
+        (Some(a), Some(b)) => a != b,
+        // Nothing is beyond the outline, as in the background.
+        (Some(id), None) | (None, Some(id)) => outline && id != 0,
+        (None, None) => false,
+    };
     let mut points = Vec::new();
     for y in 0..height {
         for x in 0..width {

@@ -19,7 +19,8 @@ pub struct Comparison {
     /// between the directions to the two hit positions, in degrees. `None` without such pixels.
     pub angular_error_deg: Option<Summary>,
     /// Distance in pixels from the reference's edges of reflected objects to the nearest that the
-    /// technique shows. `None` where either shows no edge.
+    /// technique shows, and from the technique's to the reference's. `None` where either shows no
+    /// edge.
     pub edge_offset_px: Option<Summary>,
     /// Colour on the mirror mask. `None` without pixels to compare.
     pub color: Option<ColorError>,

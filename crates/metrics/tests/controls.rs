@@ -299,6 +299,19 @@ fn a_dropped_triangle_is_missing_and_a_thin_one_is_a_crack() {
 }
 
 #[test]
+fn a_false_edge_is_far_from_all_true_ones() {
+    let torn = with_fault(|test| {
+        cut(test, 19..21, 29..31);
+    });
+    let edges = torn.edge_offset_px.unwrap();
+    assert!(edges.max > 3.0, "{edges:?}");
+    assert!(
+        edges.p50 == 0.0,
+        "the others are where they were: {edges:?}"
+    );
+}
+
+#[test]
 fn something_where_nothing_is_is_extra() {
     let extra = with_fault(|test| *layers(test).id.at_mut(32, 8) = 1);
     assert_eq!(extra.coverage.extra, Some(1.0 / mirror_pixels()));

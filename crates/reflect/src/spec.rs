@@ -222,6 +222,11 @@ impl Options {
         self.info
     }
 
+    /// Whether the technique has an option of this name.
+    pub fn has(&self, key: &str) -> bool {
+        self.values.iter().any(|(known, _)| *known == key)
+    }
+
     /// Value of an option.
     ///
     /// # Panics

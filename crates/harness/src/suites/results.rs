@@ -67,13 +67,12 @@ impl<'r> Results<'r> {
             .collect()
     }
 
-    /// The number of a series at the measured point that is nearest to `x`.
+    /// The number of a series at the point that stands at `x`; `None` where that one has none.
     pub fn at(&self, series: &str, x: f64, path: &str) -> Option<f64> {
-        let curve = self.curve(series, path);
-        let nearest = curve
-            .into_iter()
-            .min_by(|a, b| (a.0 - x).abs().total_cmp(&(b.0 - x).abs()));
-        nearest.map(|(_, value)| value)
+        let series = (self.figure.series.iter()).find(|found| found.label == series)?;
+        let mut points = series.points.iter();
+        let point = points.find(|point| self.place(point) == Some(x))?;
+        self.value(point, path)
     }
 
     /// Our number for a quotation.

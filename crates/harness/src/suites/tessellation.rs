@@ -13,7 +13,7 @@ mod table;
 use crate::plot::{Axis, Scale};
 use crate::report::words::{count, short};
 
-use super::{Figure, Point, Quantity, Results, Series, Suite};
+use super::{Figure, Guide, Point, Quantity, Results, Series, Suite};
 
 /// The suite.
 pub const SUITE: Suite = Suite {
@@ -33,6 +33,12 @@ const ANGLE: &str = "angular_error_deg.p50";
 const EDGES: &str = "edge_offset_px.mean";
 const CRACK_PIXELS: &str = "coverage.crack_pixels";
 const JUNCTIONS: &str = "coverage.t_junctions";
+/// What whole-pixel answers are off by, from the truth alone.
+const FLOOR: &str = "pixel_angle_deg.p50";
+const WHOLE_PIXELS: Guide = Guide {
+    label: "whole pixels",
+    path: FLOOR,
+};
 const SEARCHED: &str = "vertices.searched";
 const DRAWN: &str = "triangles.drawn";
 

@@ -1,4 +1,5 @@
-//! Full tessellation: every triangle is split `level` times (Szabo 2013, chapter 5).
+//! Full tessellation: every triangle is split `level` times (Szabo 2013, chapter 5), but for those
+//! that are hidden by all their corners.
 
 use super::tessellation::{Rule, Tessellation};
 use super::{Context, Refine};

@@ -157,7 +157,10 @@ const fn levels(default: u32, what: &'static str) -> OptionInfo {
     }
 }
 
-pub(super) const FULL: &[OptionInfo] = &[levels(3, "how often every triangle is split")];
+pub(super) const FULL: &[OptionInfo] = &[levels(
+    3,
+    "how often every triangle is split that is not hidden",
+)];
 
 pub(super) const ADAPTIVE: &[OptionInfo] = &[
     levels(5, "how often a triangle may be split"),

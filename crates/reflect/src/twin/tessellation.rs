@@ -77,10 +77,10 @@ impl Tessellation<'_> {
         let [a, b, c] = triangle.points.map(|point| &points[point]);
         let edges = [self.edge_error(a, b), self.edge_error(b, c)];
         triangle.error = edges[0].max(edges[1]).max(self.edge_error(c, a));
-        let reflected = [a, b, c]
+        let given_up = [a, b, c]
             .iter()
-            .any(|point| point.answer.state == Found::FOUND);
-        triangle.split = reflected && self.threshold < 1.0 && triangle.error >= self.threshold;
+            .all(|point| point.answer.state == Found::HIDDEN);
+        triangle.split = !given_up && self.threshold < 1.0 && triangle.error >= self.threshold;
     }
 
     /// All triangles that the loop meets, judged; those not split are the finished ones.

@@ -126,7 +126,7 @@ const RAY: usize = 256;
 
 /// Whether the texel of an effort image is of a pixel that a map resolved.
 pub(crate) fn is_resolved(texel: &[f32; 4]) -> bool {
-    texel[3] as usize % RAY > 0
+    !(texel[3] as usize).is_multiple_of(RAY)
 }
 
 /// What the texels of an effort image say: samples, node tests, skips, and rays with the resolving map

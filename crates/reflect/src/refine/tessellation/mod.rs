@@ -92,9 +92,11 @@ pub(crate) struct Leaf {
     pub drawn: bool,
 }
 
+/// Triangles at most among which T-junctions are looked for: they are made and read once more.
+const MOST_COUNTED: u64 = 1 << 18;
+
 /// A refinement by a [`Rule`].
 pub(crate) struct Tessellation {
-    rule: Rule,
     /// `hidden=extend`.
     extends: bool,
     /// `start=previous`.
@@ -127,9 +129,8 @@ impl Tessellation {
         let passes = Passes::new(context, rule, plan, &originals)?;
         let options = context.search_options;
         Ok(Self {
-            rule,
             extends: options.is("hidden", "extend"),
-            starts_warm: options.is("start", "previous"),
+            starts_warm: options.has("start") && options.is("start", "previous"),
             plan,
             originals,
             passes,
@@ -183,7 +184,7 @@ impl Tessellation {
         gpu.queue.write_buffer(buffer, 0, &totals);
     }
 
-    /// Twin of `usable` in `virtual.wesl`.
+    /// Twin of `usable` in `virtual.wesl`, but for what lies behind the eye's plane.
     fn is_drawn(&self, states: [u32; 3]) -> bool {
         if self.extends {
             states.contains(&Found::FOUND) && !states.contains(&Found::FAILED)
@@ -253,10 +254,8 @@ impl Refine for Tessellation {
     }
 
     fn t_junctions(&self, gpu: &Gpu, stage: &Stage, search: &dyn Search) -> Option<u64> {
-        // Where all are split alike there is none.
-        let splits_all = self.rule.threshold.is_none_or(|threshold| threshold <= 0.0);
-        if splits_all || self.plan.level == 0 {
-            return Some(0);
+        if self.triangles(gpu, stage).drawn > MOST_COUNTED {
+            return None;
         }
         let objects = junctions::objects(&stage.world.scene);
         let mirrors = 0..self.originals.batches.len();

@@ -240,7 +240,7 @@ pub(super) const CUBEMAP_TRACE: &[OptionInfo] = &[
     words(
         "accept",
         &["continuous", "any"],
-        "which sign changes count: those where the map is continuous (ours), or any, as published",
+        "which sign changes count: those where the map is continuous, of a map that hides nothing before them if there is one (ours), or any, as published",
     ),
     words(
         "sampling",

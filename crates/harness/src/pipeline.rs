@@ -146,7 +146,9 @@ pub fn follow(
 pub struct Compared {
     first: Comparison,
     full: Comparison,
-    vertices: Option<Result<VertexReport, String>>,
+    vertices: Option<VertexReport>,
+    /// Why there are no exact reflection points to compare with.
+    no_exact: Option<String>,
     pixel_angle: Option<Summary>,
 }
 
@@ -166,15 +168,17 @@ pub fn compare(scene: &Scene, truth: &Truth, output: &Output) -> Result<Compared
         .vertices
         .as_ref()
         .map(|results| match &truth.vertices {
-            Err(reason) => Ok(Err(reason.to_string())),
+            Err(_) => Ok(VertexReport::without_truth(results)),
             Ok(exact) => {
                 let in_view = |pair: usize, at: DVec2| in_view(scene, &truth.first, pair, at);
-                catoptric_metrics::vertex_report(results, exact, in_view).map(Ok)
+                catoptric_metrics::vertex_report(results, exact, in_view)
             }
         });
+    let reason = truth.vertices.as_ref().err().map(ToString::to_string);
     Ok(Compared {
         first,
         full,
+        no_exact: reason.filter(|_| vertices.is_some()),
         vertices: vertices.transpose().map_err(failed)?,
         pixel_angle: truth.pixel_angle,
     })
@@ -249,22 +253,19 @@ pub fn record(
         object_agreement: compared.full.object_agreement,
         angular_error_deg: compared.full.angular_error_deg,
     });
-    match compared.vertices {
-        Some(Ok(report)) => {
-            // With a refinement, those are not the scene's vertices alone.
-            let searched = rendered.output.searched;
-            row.vertices = Some(VertexReport { searched, ..report });
-            if row.technique.contains('+') {
-                row.meta.notes.push(
-                    "vertices.searched counts the refinement's searches; the rest of vertices is about \
-                     the scene's own vertices"
-                        .to_owned(),
-                );
-            }
+    if let Some(report) = compared.vertices {
+        // With a refinement, those are not the scene's vertices alone.
+        let searched = rendered.output.searched;
+        row.vertices = Some(VertexReport { searched, ..report });
+        if row.technique.contains('+') {
+            row.meta.notes.push(
+                "vertices.searched counts the refinement's searches; the rest of vertices is about \
+                 the scene's own vertices"
+                    .to_owned(),
+            );
         }
-        Some(Err(reason)) => row.meta.notes.push(reason),
-        None => {}
     }
+    row.meta.notes.extend(compared.no_exact);
     row.meta.notes.extend(rendered.output.notes.iter().cloned());
     row.triangles = rendered.output.triangles.clone();
     row.work = Some(rendered.output.work);

@@ -12,12 +12,13 @@ use crate::stats::Summary;
 pub struct VertexReport {
     /// (object vertex, mirror) pairs.
     pub searched: u64,
-    /// Of those, with a true reflection point in view.
-    pub reflected: u64,
+    /// Of those, with a true reflection point in view. `None`, as all that follows from the truth,
+    /// where that is not known.
+    pub reflected: Option<u64>,
     /// Of those, behind the mirror's silhouette cone: without any reflection point.
-    pub hidden: u64,
+    pub hidden: Option<u64>,
     /// Of `reflected`, those for which the search says that it has no answer, or a stand-in only.
-    pub failed: u64,
+    pub failed: Option<u64>,
     /// Answers that are NaN or infinite though the search reports none as failed; they count as
     /// not found.
     pub non_finite: u64,
@@ -33,7 +34,26 @@ pub struct VertexReport {
     /// How many of those offsets are large, as shares.
     pub offset_share: Option<OffsetShare>,
     /// How the rule that drops vertices behind the mirror's tangent plane fared.
-    pub discard: Discard,
+    pub discard: Option<Discard>,
+}
+
+impl VertexReport {
+    /// What is to be said of a search where the exact reflection points are not known.
+    pub fn without_truth(results: &[VertexResult]) -> Self {
+        Self {
+            searched: results.chunk_by(same_pair).count() as u64,
+            reflected: None,
+            hidden: None,
+            failed: None,
+            non_finite: results.iter().filter(|it| is_non_finite(it)).count() as u64,
+            recall: None,
+            hole: count_flags(results.iter().map(|result| result.hole)),
+            enlarged: count_flags(results.iter().map(|result| result.enlarged)),
+            offset_px: None,
+            offset_share: None,
+            discard: None,
+        }
+    }
 }
 
 /// Shares of offsets above a limit.
@@ -119,24 +139,16 @@ pub fn vertex_report(
         offsets.extend(found.iter().filter_map(|&q| nearest(q, &projected)));
     }
 
+    let hidden = (truth.iter()).filter(|truth| truth.class == VertexClass::Hidden);
     Ok(VertexReport {
-        searched: truth.len() as u64,
-        reflected,
-        hidden: truth
-            .iter()
-            .filter(|truth| truth.class == VertexClass::Hidden)
-            .count() as u64,
-        failed,
-        non_finite: results
-            .iter()
-            .filter(|result| is_non_finite(result))
-            .count() as u64,
+        reflected: Some(reflected),
+        hidden: Some(hidden.count() as u64),
+        failed: Some(failed),
         recall: (solutions > 0).then(|| recalled as f64 / solutions as f64),
-        hole: count_flags(results.iter().map(|result| result.hole)),
-        enlarged: count_flags(results.iter().map(|result| result.enlarged)),
         offset_share: offset_share(&offsets),
         offset_px: Summary::of(offsets),
-        discard,
+        discard: Some(discard),
+        ..VertexReport::without_truth(results)
     })
 }
 
@@ -255,11 +267,11 @@ mod tests {
         let report = report(&results, &truth);
         assert_eq!(
             (report.searched, report.reflected, report.failed),
-            (2, 2, 0)
+            (2, Some(2), Some(0))
         );
         assert_eq!(report.recall, Some(1.0));
         assert_eq!(report.offset_px.unwrap().max, 0.0);
-        assert_eq!(report.discard, Discard::default());
+        assert_eq!(report.discard, Some(Discard::default()));
         assert_eq!((report.hole, report.enlarged), (None, None));
     }
 
@@ -282,16 +294,14 @@ mod tests {
         let report = report(&results, &truth);
         assert_eq!(
             (report.searched, report.reflected, report.hidden),
-            (5, 3, 1)
+            (5, Some(3), Some(1))
         );
-        assert_eq!(report.failed, 1);
-        assert_eq!(
-            report.discard,
-            Discard {
-                false_keep: 1,
-                false_drop: 1
-            }
-        );
+        assert_eq!(report.failed, Some(1));
+        let discard = Discard {
+            false_keep: 1,
+            false_drop: 1,
+        };
+        assert_eq!(report.discard, Some(discard));
         assert_eq!(report.recall, Some(1.0 / 3.0));
         let offset = report.offset_px.unwrap();
         assert_eq!((offset.mean, offset.max), (2.5, 5.0));
@@ -325,7 +335,8 @@ mod tests {
         };
         let truth = [0, 1].map(|_| truth(REFLECTED, &[[10.5, 20.5]]));
         let report = report(&results, &truth);
-        assert_eq!((report.failed, report.discard.false_drop), (1, 0));
+        let dropped = report.discard.unwrap().false_drop;
+        assert_eq!((report.failed, dropped), (Some(1), 0));
         assert_eq!(report.offset_px.unwrap().max, 5.0);
     }
 
@@ -333,8 +344,16 @@ mod tests {
     fn an_answer_that_is_no_number_is_counted_and_not_found() {
         let results = [result(0, VertexState::Found, [f32::NAN, 1.0])];
         let report = report(&results, &[truth(REFLECTED, &[[1.0, 1.0]])]);
-        assert_eq!((report.non_finite, report.failed), (1, 0));
+        assert_eq!((report.non_finite, report.failed), (1, Some(0)));
         assert_eq!((report.recall, report.offset_px), (Some(0.0), None));
+    }
+
+    #[test]
+    fn searches_are_counted_where_the_truth_is_not_known() {
+        let results = [0, 1].map(|v| result(v, VertexState::Found, [1.0, 1.0]));
+        let report = VertexReport::without_truth(&results);
+        assert_eq!((report.searched, report.reflected), (2, None));
+        assert_eq!((report.failed, report.discard), (None, None));
     }
 
     #[test]

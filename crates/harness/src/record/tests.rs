@@ -74,9 +74,9 @@ pub fn measured(scene: &str, technique: &str) -> Record {
         color: Some(color),
         vertices: Some(VertexReport {
             searched: 100,
-            reflected: 60,
-            hidden: 30,
-            failed: 0,
+            reflected: Some(60),
+            hidden: Some(30),
+            failed: Some(0),
             non_finite: 0,
             recall: Some(0.95),
             hole: Some(0),
@@ -87,10 +87,10 @@ pub fn measured(scene: &str, technique: &str) -> Record {
                 over_2: 0.0,
                 over_5: 0.0,
             }),
-            discard: Discard {
+            discard: Some(Discard {
                 false_keep: 1,
                 false_drop: 2,
-            },
+            }),
         }),
         triangles: Some(Triangles {
             input: 2,

@@ -330,8 +330,8 @@ fn work(row: &Record) -> Vec<Fact> {
     let mean = |value: Option<f64>| value.map(significant);
     let named = [
         ("vertices searched", whole(vertices.map(|v| v.searched))),
-        ("truly reflected", whole(vertices.map(|v| v.reflected))),
-        ("search failed", whole(vertices.map(|v| v.failed))),
+        ("truly reflected", whole(vertices.and_then(|v| v.reflected))),
+        ("search failed", whole(vertices.and_then(|v| v.failed))),
         ("evaluations", mean(work.evaluations)),
         ("steps", mean(work.steps)),
         ("node tests", mean(work.node_tests)),
@@ -381,13 +381,14 @@ fn facts(row: &Record) -> Vec<Fact> {
         fact("angle °: mean, p50, p95, p99, max", parts.join(", "));
     }
     if let Some(vertices) = &row.vertices {
+        let known = |value: Option<u64>| value.map_or_else(|| "–".to_owned(), count);
         let parts = [
-            vertices.searched,
+            Some(vertices.searched),
             vertices.reflected,
             vertices.hidden,
             vertices.failed,
         ]
-        .map(count);
+        .map(known);
         fact(
             "vertices: searched, in view, hidden, failed",
             parts.join(", "),
@@ -401,15 +402,10 @@ fn facts(row: &Record) -> Vec<Fact> {
             "recall",
             vertices.recall.map_or_else(|| "–".to_owned(), percent),
         );
-        let discard = vertices.discard;
-        fact(
-            "drop rule: wrongly kept, wrongly dropped",
-            format!(
-                "{}, {}",
-                count(discard.false_keep),
-                count(discard.false_drop)
-            ),
-        );
+        if let Some(discard) = vertices.discard {
+            let parts = [discard.false_keep, discard.false_drop].map(count);
+            fact("drop rule: wrongly kept, wrongly dropped", parts.join(", "));
+        }
     }
     if let Some(triangles) = &row.triangles {
         fact(

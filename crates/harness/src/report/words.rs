@@ -118,7 +118,7 @@ fn coverage(row: &Record) -> Option<String> {
     let hidden = row
         .vertices
         .as_ref()
-        .is_some_and(|vertices| vertices.hidden > 0);
+        .is_some_and(|vertices| vertices.hidden > Some(0));
     let drops = hidden && row.triangles.is_some() && !row.technique.contains("hidden=extend");
     let mut parts = Vec::new();
     if let Some(missing) = coverage.missing.filter(|share| *share > 0.0) {
@@ -163,10 +163,13 @@ fn capitalized(text: &str) -> String {
 
 fn vertices(row: &Record) -> Option<String> {
     let vertices = row.vertices.as_ref()?;
-    let mut text = format!(
-        "{} searches were run, and {} of the scene's vertices truly have a reflection in view",
-        count(vertices.searched),
-        count(vertices.reflected)
+    let mut text = format!("{} searches were run", count(vertices.searched));
+    let Some(reflected) = vertices.reflected else {
+        return Some(text + "; where the reflections truly are is not known for a mesh.");
+    };
+    text += &format!(
+        ", and {} of the scene's vertices truly have a reflection in view",
+        count(reflected)
     );
     match vertices.offset_px {
         Some(offset) => {
@@ -188,14 +191,11 @@ fn vertices(row: &Record) -> Option<String> {
                 }
             }
         }
-        None if vertices.reflected > 0 => text += ", none of which was found",
+        None if reflected > 0 => text += ", none of which was found",
         None => {}
     }
-    if vertices.failed > 0 {
-        text += &format!(
-            "; for {} of them it reports failure",
-            count(vertices.failed)
-        );
+    if let Some(failed) = vertices.failed.filter(|failed| *failed > 0) {
+        text += &format!("; for {} of them it reports failure", count(failed));
     }
     Some(text + ".")
 }

@@ -40,7 +40,7 @@ pub fn figure() -> Figure {
         quantities: vec![
             Quantity::linear("share without the object seen there", MISSING),
             Quantity::linear("share with an object too many", EXTRA),
-            Quantity::linear("share of mirror pixels that show the right object", AGREEMENT),
+            Quantity::linear("right object (share of mirror pixels)", AGREEMENT),
         ],
         quotes: Vec::new(),
         analysis,

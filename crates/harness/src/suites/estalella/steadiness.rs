@@ -60,15 +60,20 @@ fn analysis(results: &Results<'_>) -> Vec<String> {
         let (mean, gridded) = (at(alone, JITTER)?, at(grid, JITTER)?);
         let (tail, tail_gridded) = (at(alone, JITTER_P99)?, at(grid, JITTER_P99)?);
         let (jumps, jumps_gridded) = (at(alone, JUMPS)?, at(grid, JUMPS)?);
-        let verdict = match (gridded < mean, tail_gridded < tail) {
-            (true, true) => "calms all of it",
-            (true, false) => "takes away the rare large changes, and adds to the common small ones",
-            (false, true) => "calms the common changes, not the rare large ones",
-            (false, false) => "does not calm it",
+        let calmer = [gridded < mean, tail_gridded < tail, jumps_gridded < jumps];
+        let verdict = match calmer {
+            [true, true, true] => "holds here",
+            [false, false, false] => "does not hold here",
+            _ => "holds in part",
         };
+        let [mean_goes, tail_goes, jumps_go] = calmer.map(|calmer| match calmer {
+            true => "falls",
+            false => "does not fall",
+        });
         Some(format!(
-            "With {steps} steps the grid {verdict}: mean jitter {} px a frame without it and {} px with it; \
-             one change in a hundred exceeds {} and {} px; above 2 px are {} and {} in ten thousand.",
+            "With {steps} steps the mean jitter {mean_goes} by the grid, from {} to {} px a frame; what one \
+             change in a hundred exceeds {tail_goes}, from {} to {} px; the share above 2 px {jumps_go}, from \
+             {} to {} in ten thousand: that the grid removes flicker {verdict}.",
             short(mean),
             short(gridded),
             short(tail),

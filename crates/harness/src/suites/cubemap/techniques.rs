@@ -205,8 +205,8 @@ fn growth() -> Figure {
         title: "Cost against the size of the scene".to_owned(),
         after: "Číž 2017, chapter 5",
         question:
-            "The thesis claims a cost that does not depend on the scene's geometry. It holds for \
-                   tracing in maps that stand; a map drawn anew costs what its scene costs."
+            "The thesis claims a cost that does not depend on the scene's geometry: that of tracing in maps \
+                   that stand, and with maps that are drawn anew."
                 .to_owned(),
         axis: Axis::log("vertices"),
         series: GROWTH.iter().map(series).collect(),

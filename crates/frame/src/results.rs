@@ -59,7 +59,7 @@ pub struct TrueVertex {
 pub enum VertexClass {
     /// Has at least one reflection point.
     Reflected,
-    /// Behind the mirror's silhouette cone: no point sees both eye and vertex.
+    /// Behind the mirror, seen from the eye: no point sees both eye and vertex.
     Hidden,
     /// In front, but the reflection would lie beyond an open mirror's rim.
     Unreflected,

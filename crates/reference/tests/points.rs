@@ -351,6 +351,21 @@ fn beyond_the_rim_is_unreflected() {
 }
 
 #[test]
+fn what_a_bowl_hides_from_the_eye_is_hidden() {
+    let eye = DVec3::new(0.5, 0.35, 4.0);
+    let bowl = Shape::Bowl {
+        center: DVec3::ZERO,
+        radius: 1.5,
+        axis: DVec3::NEG_Z,
+        half_angle: 1.0,
+    };
+    let class = |vertex| solve(&bowl, eye, vertex).class;
+    assert_eq!(class(DVec3::new(0.0, 0.0, -4.0)), VertexClass::Hidden);
+    assert_eq!(class(DVec3::new(9.0, 0.0, -4.0)), VertexClass::Unreflected);
+    assert_eq!(class(DVec3::new(0.0, 0.0, -1.0)), VertexClass::Reflected);
+}
+
+#[test]
 fn plane_has_the_mirror_image() {
     let plane = Shape::Plane {
         center: DVec3::new(0.0, 1.0, 0.0),

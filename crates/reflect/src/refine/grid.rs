@@ -2,8 +2,8 @@
 //! are searched for; the mesh's own are interpolated between their virtual images.
 //!
 //! The grid belongs to a mesh and moves with it. A grid vertex inside a mirror has no reflection
-//! there and is left out of the cells around it. A mesh that would have no fewer grid vertices
-//! than vertices is searched directly.
+//! there and is left out of the cells around it. By `fraction`, a mesh that would have no fewer grid
+//! vertices than vertices is searched directly.
 
 mod cells;
 
@@ -62,6 +62,12 @@ struct OnMirror {
 /// Corner of a cell that is inside the mirror; `DROPPED` in `grid.wesl`.
 const DROPPED: u32 = u32::MAX;
 
+/// Whether every mesh is searched directly: with as many grid vertices as vertices, nothing is
+/// interpolated.
+pub(super) fn is_bypassed(options: &Options) -> bool {
+    options.number("cell") <= 0.0 && options.number("fraction") >= 1.0
+}
+
 pub(crate) fn make(context: &Context<'_>) -> Result<Box<dyn Refine>, ReflectError> {
     let Context { gpu, stage, .. } = context;
     let options = context.options.expect("a refinement has options");
@@ -70,7 +76,10 @@ pub(crate) fn make(context: &Context<'_>) -> Result<Box<dyn Refine>, ReflectErro
         .map(|object| Mesh::new(&object.mesh.positions, options))
         .collect();
     // Between images in space there are only images in space.
-    let drawn = context.search_options.with("depth", "virtual");
+    let drawn = match is_bypassed(options) {
+        true => context.search_options.clone(),
+        false => context.search_options.with("depth", "virtual"),
+    };
     let raster = Raster::new(gpu, &drawn, stage, "virtual", &[], &[Slot::Read])?;
     let read = Slot::Read;
     let layout = layout(gpu, "grid", &[read, read, read, read, read, Slot::Write]);
@@ -361,6 +370,18 @@ mod tests {
             (plain.searched, plain.work),
             (bypassed.searched, bypassed.work)
         );
+        // Whatever the search was asked for.
+        for search in ["linear", "newton"] {
+            let spec = |refinement| parse(&format!("{search}{refinement}")).expect("a technique");
+            let [alone, bypassed] = ["", "+grid(fraction=1)"].map(|refinement| {
+                let prepared = prepare(&gpu, &spec(refinement), &scene, [80, 60]);
+                prepared
+                    .expect("fits the device")
+                    .render()
+                    .expect("renders")
+            });
+            assert_eq!(alone.frame.color, bypassed.frame.color, "{search}");
+        }
         let tenth = render(&gpu, &scene, "+grid(fraction=0.1)");
         let share = tenth.searched as f64 / plain.searched as f64;
         // Objects of a few dozen vertices cannot come down to a tenth.
@@ -442,15 +463,18 @@ mod tests {
         let touching = render(&gpu, &scene, "+grid");
         assert_eq!(touching.notes.len(), 1, "{:?}", touching.notes);
         assert!(touching.notes[0].contains("inside mirror `ball`"));
-        // Only a vertex that is inside itself can have lost all corners.
+        // A vertex that has lost all corners is hidden inside, and none is lost.
         let positions = scene
             .objects
             .iter()
             .flat_map(|object| &object.mesh.positions);
+        let mut hidden_inside = 0;
         for ((state, _), position) in answers(&touching).iter().zip(positions) {
+            assert_ne!(*state, VertexState::Failed, "{position}");
             let inside = scene.mirrors[0].shape.contains(position.as_dvec3());
-            assert!(*state != VertexState::Failed || inside, "{position}");
+            hidden_inside += u32::from(inside && *state == VertexState::Hidden);
         }
+        assert!(hidden_inside > 0);
     }
 
     #[test]

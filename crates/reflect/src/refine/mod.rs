@@ -75,10 +75,11 @@ pub(crate) struct Context<'a> {
 
 /// The options that a search is made with. The corners of a grid's cells are continued behind the
 /// tangent plane wherever the search can do so: a vertex that is reflected needs those of its
-/// cell's corners too that are not.
+/// cell's corners too that are not. Where there is no cell, it is the search as asked for.
 pub(crate) fn searched_options(spec: &Spec, scene: &Scene) -> Options {
     let continued = spec.options.with("hidden", "extend");
-    let is_grid = |refinement: &Options| refinement.info().name == "+grid";
+    let is_grid =
+        |refinement: &Options| refinement.info().name == "+grid" && !grid::is_bypassed(refinement);
     let can = (spec.options.info().objection)(&continued, scene).is_none();
     match spec.refinement.as_ref().is_some_and(is_grid) && can {
         true => continued,

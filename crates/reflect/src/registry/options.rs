@@ -34,7 +34,7 @@ pub(super) const SEARCH: &[OptionInfo] = &[
     words(
         "depth",
         &["thesis", "virtual"],
-        "what the virtual triangles are depth-tested by; with +grid always virtual",
+        "what the virtual triangles are depth-tested by; with a +grid that interpolates always virtual",
     ),
     words(
         "hidden",

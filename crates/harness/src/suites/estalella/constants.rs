@@ -46,8 +46,7 @@ fn cells() -> Figure {
         question:
             "The images of vertices around a sphere, interpolated in cells of a given edge whose \
              corners are found all but exactly (60 steps). The vertices begin a twentieth of the radius \
-             from the mirror: the mean is that of the near ones, whose cells reach into the mirror or \
-             behind it. The median is that of cells which are reflected whole."
+             from the mirror, nearer than a cell is wide."
                 .to_owned(),
         axis: Axis::log("edge of a cell (radii of the mirror)"),
         series: vec![Series {
@@ -93,7 +92,9 @@ fn constant(anchor: &'static str, title: &str, option: &str, values: &[f64]) -> 
             "The paper adapts the length of the steps but gives no constants. By default the first step is \
              0.5 projected bisectors long; the next one is 0.6 times as long where the field at the \
              beginning of a step and halfway differ by more than half of the longer, 1.25 times where by \
-             less than a quarter, and always between 0.05 and 4. A search ends early where E < 1e-12. \
+             less than a quarter, and always between 0.05 and 4. A search starts halfway between the directions to eye and vertex, \
+             and ends early where E < 1e-12. The bisector is projected to \
+             first order at the point reached. Half and quarter, shortest and longest step are no options. \
              `{option}` is varied here; nine steps, maps of 256 × 256 texels a face."
         ),
         axis: Axis::linear(option),

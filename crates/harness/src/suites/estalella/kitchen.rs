@@ -100,10 +100,18 @@ fn methods_analysis(results: &Results<'_>) -> Vec<String> {
             short(grid / all)
         ));
     }
-    if let (Some(all), Some(grid)) = (at(0.0, SEARCH_MS), at(1.0, SEARCH_MS)) {
+    if let (Some(all), Some(grid), Some(frame)) =
+        (at(0.0, SEARCH_MS), at(1.0, SEARCH_MS), at(0.0, FRAME_MS))
+    {
         sentences.push(format!(
-            "The search itself takes {} of the time.",
-            short(grid / all)
+            "Of a frame with every vertex searched the search passes are {} % here. With the grid they take \
+             {} of their time, for {} of the searches.",
+            short(100.0 * all / frame),
+            short(grid / all),
+            match (at(0.0, SEARCHED), at(1.0, SEARCHED)) {
+                (Some(all), Some(grid)) => short(grid / all),
+                _ => "a part".to_owned(),
+            }
         ));
     }
     if let (Some(all), Some(grid)) = (at(0.0, AGREEMENT), at(1.0, AGREEMENT)) {
@@ -166,16 +174,19 @@ fn density(scene: &str) -> Figure {
 fn density_analysis(results: &Results<'_>) -> Vec<String> {
     let at = |x, path| results.at("25 steps", x, path);
     let mut sentences = Vec::new();
-    if let (Some(sparse), Some(dense)) = (at(4.1, FRAME_MS), at(14.3, FRAME_MS)) {
-        let nine = |x| results.at("9 steps", x, FRAME_MS);
-        let nine = nine(4.1)
-            .zip(nine(14.3))
-            .map_or(dense / sparse, |(a, b)| b / a);
+    for series in ["9 steps", "25 steps"] {
+        let at = |x, path| results.at(series, x, path);
+        let times = [at(4.1, FRAME_MS), at(14.3, FRAME_MS)];
+        let between = [at(4.1, "time_ms.frame.p95"), at(14.3, "time_ms.frame.p5")];
+        let ([Some(sparse), Some(dense)], [Some(slowest), Some(fastest)]) = (times, between) else {
+            continue;
+        };
+        let ratio = match slowest < fastest {
+            true => format!("takes {} times as long", short(dense / sparse)),
+            false => "takes no longer than the times scatter".to_owned(),
+        };
         sentences.push(format!(
-            "From 4.1 to 14.3 % a frame takes {} times as long with 9 steps (in the paper 2.0 times) and {} \
-             times with 25.",
-            short(nine),
-            short(dense / sparse)
+            "From 4.1 to 14.3 % a frame of {series} {ratio} (in the paper 2.0 times as long)."
         ));
     }
     if let (Some(tenth), Some(all)) = (at(9.6, AGREEMENT), at(100.0, AGREEMENT)) {
@@ -262,11 +273,12 @@ fn iterations_analysis(results: &Results<'_>) -> Vec<String> {
     if let (Some(nine), Some(more)) = (right(9.0), right(25.0)) {
         let gain = 100.0 * (more - nine);
         let claim = if gain < 1.0 { "holds" } else { "does not hold" };
+        let change = if gain < 0.0 { "fewer" } else { "more" };
         sentences.push(format!(
-            "From 9 to 25 steps {} % of the mirror pixels of the kitchen become right: that more than nine \
-             bring nothing to see {claim} here, if one pixel in a hundred is to be seen. What is left after \
-             nine are the few vertices that settle late: near the mirror, or seen at a grazing angle.",
-            short(gain)
+            "With 25 steps in place of 9 the right object is seen on {} % {change} of the mirror pixels of \
+             the kitchen: that more than nine bring nothing to see {claim} here, if one pixel in a hundred is \
+             to be seen.",
+            short(gain.abs())
         ));
     }
     sentences

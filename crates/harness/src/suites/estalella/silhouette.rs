@@ -20,11 +20,10 @@ pub fn figure() -> Figure {
         anchor: "silhouette",
         title: "Triangles that the mirror hides in part".to_owned(),
         after: "Estalella et al. 2005, section 6.1",
-        question: "A floor that touches the mirror, things that run into it, one behind it, and a ring before \
+        question: "A floor that touches the mirror, things that run into it, one behind it, and a ring through \
                    it. Triangles with a hidden vertex are dropped, or drawn with the vertex continued behind \
                    the tangent plane and cut where they are hidden. The linear search as published walks on \
-                   the mirror's visible pixels and cannot cross the ring, which parts them: most of what it \
-                   misses has that cause, not the outline. Where it continues vertices it walks on the \
+                   the mirror's visible pixels and cannot cross the ring, which parts them. Where it continues vertices it walks on the \
                    mirrors as they are without the objects before them."
             .to_owned(),
         axis: names("triangles with a hidden vertex", &["dropped", "continued"]),

@@ -26,7 +26,7 @@ pub fn figure() -> Figure {
     let points = techniques.iter().enumerate();
     Figure {
         anchor: "steadiness",
-        title: "Flicker, and how the grid removes it".to_owned(),
+        title: "Flicker of a fixed number of steps, with and without a grid".to_owned(),
         after: "Estalella et al. 2005, section 5",
         question: format!(
             "The camera moves slowly, {FRAMES} frames of the scene's own path. A vertex flickers where its \

@@ -165,6 +165,12 @@ impl CubeMaps {
         self.wanted.traced
     }
 
+    /// Takes over what moved around the maps; they are drawn anew by [`CubeMaps::record`].
+    pub(crate) fn refresh(&mut self, gpu: &Gpu, stage: &Stage) {
+        let centers = self.wanted.centers.clone();
+        self.set_centers(gpu, stage, &centers);
+    }
+
     /// Moves the maps, as many as before; they are drawn anew by [`CubeMaps::record`].
     pub(crate) fn set_centers(&mut self, gpu: &Gpu, stage: &Stage, centers: &[DVec3]) {
         assert_eq!(centers.len(), self.wanted.centers.len());

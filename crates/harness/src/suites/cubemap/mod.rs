@@ -47,6 +47,7 @@ fn pictures(studio: &Studio<'_>) -> anyhow::Result<Vec<Picture>> {
 }
 
 const FRAME_MS: &str = "time_ms.frame.median";
+const TRACE_MS: &str = "time_ms.passes.trace";
 const AGREEMENT: &str = "object_agreement";
 /// Against the truth with mirrors in mirrors.
 const FULL_AGREEMENT: &str = "against_full.object_agreement";
@@ -117,10 +118,10 @@ fn by_scene(scenes: &[&str], techniques: &[String], shown: Option<&str>) -> Vec<
     scenes.iter().map(series).collect()
 }
 
-/// Nanoseconds that a mirror pixel takes; `None` where it is not measured.
+/// Nanoseconds that tracing takes a mirror pixel; `None` where it is not measured.
 fn ns_per_pixel(results: &Results<'_>, point: &Point) -> Option<f64> {
     let pixels = results
         .value(point, PIXELS)
         .filter(|pixels| *pixels > 0.0)?;
-    Some(results.value(point, FRAME_MS)? * 1e6 / pixels)
+    Some(results.value(point, TRACE_MS)? * 1e6 / pixels)
 }

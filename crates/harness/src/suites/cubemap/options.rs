@@ -66,8 +66,7 @@ fn criteria(scenes: &[&str]) -> Figure {
             compared(results, &CRITERIA, 1, 4, |any, continuous| {
                 format!(
                     "accepting sign changes only where the map is continuous takes the agreement from \
-                     {} to {}: false hits at the map's discontinuities are what keeps the published \
-                     criterion below",
+                     {} to {}",
                     percent(any),
                     percent(continuous)
                 )

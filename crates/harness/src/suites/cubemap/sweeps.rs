@@ -226,8 +226,7 @@ fn limits(results: &Results<'_>) -> Vec<String> {
         Some(format!(
             "{}: one ray shows the right object on {} of the pixels, three on {}, eight on {}: {deeper}. \
              Faces of 1024² reach {} and take the median angle from {}° to {}° (a second ray starts with \
-             the distance and normal of a texel). With three rays {} of the pixels are unresolved: no \
-             map sees what they meet.",
+             the distance and normal of a texel). With three rays {} of the pixels are unresolved.",
             series.label,
             full(ONE)?,
             full(THREE)?,
@@ -251,12 +250,15 @@ fn rising(results: &Results<'_>) -> Vec<String> {
         let angle = values_of(results, &series.label, ANGLE);
         let (first, last) = (*agreement.first()?, *agreement.last()?);
         let steady = agreement.windows(2).all(|pair| pair[1] >= pair[0]);
+        let strict = agreement.windows(2).all(|pair| pair[1] > pair[0]);
         let goes = if (last - first).abs() < CHANGE {
             "hardly changes"
         } else if last < first {
             "falls"
-        } else if steady {
+        } else if strict {
             "rises at every place"
+        } else if steady {
+            "rises, and nowhere falls"
         } else {
             "rises, not at every place"
         };
@@ -308,8 +310,7 @@ fn wrong(results: &Results<'_>) -> Vec<String> {
         let open = value(UNRESOLVED).unwrap_or(0.0);
         Some(format!(
             "{}: what keeps the last place below 1 are {} of the pixels beside the edge of another \
-             object, where a texel is wider than a pixel, and {} elsewhere; {} are unresolved, the ray \
-             being hidden from every map, {} show an object in place of the background.",
+             object and {} elsewhere; of all {} are unresolved, {} show an object in place of the background.",
             series.label,
             percent(value("mismatch.boundary")?),
             percent(value("mismatch.interior")?),

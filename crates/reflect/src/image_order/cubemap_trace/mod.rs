@@ -214,6 +214,11 @@ impl CubemapTrace {
 impl ImageOrder for CubemapTrace {
     /// Maps stay where they were placed; drawn in every frame, they show what moved.
     fn update(&mut self, gpu: &Gpu, stage: &Stage) -> Result<(), ReflectError> {
+        if self.every_frame {
+            for mirror in &mut self.mirrors {
+                mirror.maps.refresh(gpu, stage);
+            }
+        }
         let fill = self.fill.as_mut();
         fill.map_or(Ok(()), |fill| fill.update(gpu, stage))
     }

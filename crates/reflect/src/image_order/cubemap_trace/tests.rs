@@ -46,7 +46,18 @@ fn same(a: &Frame, b: &Frame) -> f64 {
 fn skipping_changes_nothing_and_saves_samples() {
     let Some(gpu) = gpu_or_skip() else { return };
     let scene = scene("sphere-objects-1k");
-    for criterion in ["analytic", "analytic,accept=any", "distance"] {
+    let criteria = [
+        "analytic",
+        "analytic,accept=any",
+        "analytic,sampling=angle",
+        "analytic,sampling=texel",
+        "distance",
+        "both",
+        "both,accept=any",
+        "both,accept=any,sampling=texel,objects=1,limit=0.1",
+        "switch",
+    ];
+    for criterion in criteria {
         let technique = |pyramid| {
             format!(
                 "cubemap-trace(size=128,criterion={criterion},placement=random,pyramid={pyramid})"

@@ -77,6 +77,31 @@ fn skipping_changes_nothing_and_saves_samples() {
 }
 
 #[test]
+fn a_mirror_that_moved_is_seen_where_it_is() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let mut scene = scene("bowl");
+    scene.mirrors[0].cubemaps = vec![scene.camera.eye];
+    let technique =
+        "cubemap-trace(size=64,objects=1,bounces=3,update=frame,placement=scene,sampling=texel)";
+    let spec = parse(technique).expect("a technique");
+    let ready = |scene: &Scene| crate::prepare(&gpu, &spec, scene, SIZE).expect("fits the device");
+    let picture = |prepared: &mut crate::Prepared<'_>| {
+        let output = prepared.render().expect("renders");
+        output.frame.color
+    };
+    let mut moving = ready(&scene);
+    let before = picture(&mut moving);
+    let catoptric_scene::Shape::Bowl { center, .. } = &mut scene.mirrors[0].shape else {
+        panic!("a bowl")
+    };
+    center.x += 0.3;
+    moving.update(&scene).expect("the same scene");
+    let moved = picture(&mut moving);
+    assert_ne!(before, moved);
+    assert_eq!(moved, picture(&mut ready(&scene)));
+}
+
+#[test]
 fn lanes_find_what_fragments_find_texel_by_texel() {
     let Some(gpu) = gpu_or_skip() else { return };
     let scene = scene("sphere-table");

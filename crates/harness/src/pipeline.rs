@@ -269,6 +269,11 @@ pub fn record(
     row.meta.notes.extend(rendered.output.notes.iter().cloned());
     row.triangles = rendered.output.triangles.clone();
     row.work = Some(rendered.output.work);
+    row.resolved_by = rendered.output.traced.as_ref().map(|traced| {
+        let pixels = traced.pixels().max(1) as f64;
+        let shares = traced.resolved_by.iter();
+        shares.map(|count| *count as f64 / pixels).collect()
+    });
     row.temporal = rendered.temporal.clone();
     if let Some(samples) = samples {
         row.time_ms = times(rendered.prepare_ms, &samples);

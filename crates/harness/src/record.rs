@@ -59,6 +59,9 @@ pub struct Record {
     pub triangles: Option<Triangles>,
     /// Device-independent cost.
     pub work: Option<Work>,
+    /// Shares of the mirror pixels that each cube map resolved, in the order in which a mirror's maps
+    /// are tried; of techniques that trace through maps.
+    pub resolved_by: Option<Vec<f64>>,
     /// Steadiness from frame to frame.
     pub temporal: Option<Steadiness>,
     /// The same judged by the truth `full`.
@@ -202,6 +205,7 @@ impl Record {
             vertices: None,
             triangles: None,
             work: None,
+            resolved_by: None,
             temporal: None,
             against_full: None,
             time_ms: None,

@@ -63,6 +63,11 @@ fn two_maps_resolve_nearly_everything_and_beat_the_environment_map() {
         assert!(agreement > number(environment, "/object_agreement"));
         let open = &traced["coverage"]["unresolved"];
         assert!(open.as_f64().unwrap_or(0.0) <= OPEN, "{open}");
+        let by_map = traced["resolved_by"].as_array().cloned();
+        let by_map: Vec<f64> = (by_map.iter().flatten())
+            .filter_map(Value::as_f64)
+            .collect();
+        assert!(by_map.len() == 2 && by_map.iter().sum::<f64>() >= 1.0 - OPEN);
     }
 }
 

@@ -105,6 +105,7 @@ pub fn measured(scene: &str, technique: &str) -> Record {
             samples: Some(0.0),
             skips: Some(0.0),
         }),
+        resolved_by: Some(vec![0.9, 0.1]),
         temporal: Some(Steadiness {
             points: Temporal {
                 frames: 10,

@@ -80,14 +80,15 @@ pub fn reflection_points(
             radius,
             axis,
             half_angle,
-        } => Ok(sphere::inside(
-            *center,
-            *radius,
-            *axis,
-            *half_angle,
-            eye,
-            vertex,
-        )),
+        } => {
+            let solutions = sphere::inside(*center, *radius, *axis, *half_angle, eye, vertex);
+            Ok(match solutions.class {
+                VertexClass::Unreflected if !seen(shape, eye)(vertex) => {
+                    Solutions::none(VertexClass::Hidden)
+                }
+                _ => solutions,
+            })
+        }
         Shape::Ellipsoid {
             center,
             radii,
@@ -156,7 +157,7 @@ pub fn reflection_points(
     }
 }
 
-/// Whether a mirror does not itself hide a point of its surface from the eye.
+/// Whether a mirror does not hide a point, of its surface or behind it, from the eye.
 fn seen(shape: &Shape, eye: DVec3) -> impl Fn(DVec3) -> bool {
     /// Share of a mirror's extent by which something hides before it counts as before.
     const BEFORE: f64 = 1e-6;

@@ -31,7 +31,7 @@ pub fn outside(center: DVec3, radius: f64, eye: DVec3, vertex: DVec3) -> Solutio
 }
 
 /// Solutions on the inside of a spherical cap: those of the whole sphere's inside, cut by the
-/// rim. A vertex without any that the cap hides from the eye is [`VertexClass::Hidden`].
+/// rim.
 ///
 /// If eye, vertex and centre are on one line, a whole ring of points may reflect the vertex; two
 /// of them are given, of which one is the ring's nearest to the middle of the cap. If eye and
@@ -52,32 +52,8 @@ pub fn inside(
         };
     }
     let rim = half_angle.cos();
-    let is_on_cap = |point: &DVec3| ((point - center) / radius).dot(axis) >= rim;
     let points = solve(center, radius, eye, vertex, -1.0, axis);
-    let found = Solutions::within(points, is_on_cap);
-    if found.class == VertexClass::Unreflected
-        && crossings(center, radius, eye, vertex).any(|point| is_on_cap(&point))
-    {
-        return Solutions::none(VertexClass::Hidden);
-    }
-    found
-}
-
-/// Where the straight way from `from` to `to` crosses a sphere.
-fn crossings(center: DVec3, radius: f64, from: DVec3, to: DVec3) -> impl Iterator<Item = DVec3> {
-    let (offset, way) = (from - center, to - from);
-    let [a, half_b, c] = [
-        way.length_squared(),
-        way.dot(offset),
-        offset.length_squared() - radius * radius,
-    ];
-    let root = (half_b * half_b - a * c).sqrt();
-    // No real root: not a number, which is in no range.
-    [-1.0, 1.0]
-        .map(|sign| (-half_b + sign * root) / a)
-        .into_iter()
-        .filter(|share| (0.0..=1.0).contains(share))
-        .map(move |share| from + share * way)
+    Solutions::within(points, |point| ((point - center) / radius).dot(axis) >= rim)
 }
 
 /// Points of the whole sphere, reflecting outside (`side` 1) or inside (−1). Of a ring of

@@ -1,17 +1,12 @@
 //! Commands that need an adapter; skipped where there is none, unless `CATOPTRIC_REQUIRE_GPU=1`.
 
-#[path = "../src/schema.rs"]
-#[allow(
-    dead_code,
-    reason = "a module of the program, of which only the check is needed here"
-)]
-mod schema;
 mod support;
 
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::time::Duration;
 
+use ::catoptric::record::schema;
 use catoptric_frame::Frame;
 use catoptric_frame::png::srgb8_from_linear;
 use serde_json::Value;

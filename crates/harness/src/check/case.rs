@@ -6,10 +6,44 @@ use anyhow::Context;
 use catoptric_frame::Channels;
 use catoptric_reference::{RayStart, Truth};
 use catoptric_scene::{LoadOptions, Scene};
+use clap::{Args, ValueEnum};
 use serde_json::Value;
 
-use crate::cli::{CheckArgs, Common, StartArg, TruthArg};
 use crate::exit::bad_input;
+use crate::options::{Common, TruthArg};
+
+/// What `check` is asked.
+#[derive(Clone, Debug, Args)]
+pub struct Request {
+    /// One picture; without it, all that are stored
+    pub file: Option<PathBuf>,
+    /// The scene it shows: built-in name or scene file
+    #[arg(long)]
+    pub scene: Option<String>,
+    /// Folder of the stored pictures, their sidecars and `scenes` [default: reference]
+    #[arg(long, value_name = "DIR", conflicts_with = "file")]
+    pub images: Option<PathBuf>,
+    /// What its reflected rays see; default: as the picture or its sidecar says, else what fits
+    #[arg(long, value_enum)]
+    pub truth: Option<TruthArg>,
+    /// Where our reflected rays start; default: both ways for Mitsuba's pictures with a sidecar
+    #[arg(long, value_enum)]
+    pub start: Option<StartArg>,
+    /// Samples a pixel it was made with, in a regular grid; default: as its sidecar says, else 1
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub samples: Option<u32>,
+}
+
+/// Where reflected rays start.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum StartArg {
+    /// On the mirror
+    Surface,
+    /// Off the mirror, as far as Mitsuba moves them
+    Mitsuba,
+    /// Once so, once so
+    Both,
+}
 
 /// A picture by another renderer, and the scene it is to show.
 pub struct Case {
@@ -30,7 +64,7 @@ pub struct Case {
 }
 
 /// The one picture that is asked for, or all stored ones by name.
-pub fn cases(args: &CheckArgs, common: &Common) -> anyhow::Result<Vec<Case>> {
+pub fn cases(args: &Request, common: &Common) -> anyhow::Result<Vec<Case>> {
     match (&args.file, &args.scene) {
         (Some(file), Some(scene)) => Ok(vec![case(file, scene, args, common)?]),
         (Some(file), None) => match Sidecar::of(file)?.and_then(|sidecar| sidecar.scene) {
@@ -48,7 +82,7 @@ pub fn cases(args: &CheckArgs, common: &Common) -> anyhow::Result<Vec<Case>> {
 }
 
 /// Every picture in the folder of references.
-fn stored(args: &CheckArgs, common: &Common) -> anyhow::Result<Vec<Case>> {
+fn stored(args: &Request, common: &Common) -> anyhow::Result<Vec<Case>> {
     let folder = folder(args)?;
     let entries = std::fs::read_dir(&folder)
         .with_context(|| format!("cannot read the folder {}", folder.display()))?;
@@ -79,7 +113,7 @@ fn stored(args: &CheckArgs, common: &Common) -> anyhow::Result<Vec<Case>> {
 }
 
 /// `--images`, else `reference` here, else that of the checkout this program was built from.
-fn folder(args: &CheckArgs) -> anyhow::Result<PathBuf> {
+fn folder(args: &Request) -> anyhow::Result<PathBuf> {
     if let Some(folder) = &args.images {
         return Ok(folder.clone());
     }
@@ -104,7 +138,7 @@ fn beside(file: &Path, name: &str) -> String {
     }
 }
 
-fn case(file: &Path, scene: &str, args: &CheckArgs, common: &Common) -> anyhow::Result<Case> {
+fn case(file: &Path, scene: &str, args: &Request, common: &Common) -> anyhow::Result<Case> {
     let channels = Channels::read(file)?;
     let sidecar = Sidecar::of(file)?.unwrap_or_default();
     if let Some(asked) = common.resolution.filter(|asked| *asked != channels.size()) {
@@ -161,7 +195,7 @@ fn case(file: &Path, scene: &str, args: &CheckArgs, common: &Common) -> anyhow::
 fn truths(
     channels: &Channels,
     from_sidecar: Option<u32>,
-    args: &CheckArgs,
+    args: &Request,
     common: &Common,
 ) -> anyhow::Result<Vec<Truth>> {
     let full = |bounces| Truth::Full { bounces };

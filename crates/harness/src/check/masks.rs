@@ -2,7 +2,7 @@
 
 use catoptric_frame::{Image, Primary, Reflected, Status};
 
-use super::measure::Theirs;
+use super::theirs::Theirs;
 
 /// Sets of pixels, row by row from the top.
 pub struct Masks {

@@ -1,94 +1,15 @@
 //! Layer by layer: how far a picture is from what our tracer sees.
 
-use catoptric_frame::{Channels, Frame, FrameError, Image, Primary, Reflected, Status};
+use catoptric_frame::{Channels, FrameError, Image, Status};
 use catoptric_metrics::stats::percentile;
-use catoptric_reference::{RayStart, RenderOptions, Tracer, Truth};
-use catoptric_scene::Scene;
-use glam::{DVec2, Vec3};
+use glam::Vec3;
 
 use super::color;
 use super::layer::Layer;
 use super::limits;
 use super::masks::Masks;
-
-/// What our tracer sees.
-pub struct Ours {
-    color: Image<Vec3>,
-    primary: Primary,
-    reflected: Reflected,
-    /// Unit directions of the first reflected rays, 0 where there are none.
-    direction: Image<Vec3>,
-    start: RayStart,
-    side: u32,
-}
-
-impl Ours {
-    /// Traces a scene; colour is the mean of `side` × `side` rays a pixel.
-    pub fn trace(
-        scene: &Scene,
-        size: [u32; 2],
-        truth: Truth,
-        start: RayStart,
-        side: u32,
-    ) -> anyhow::Result<Self> {
-        let tracer = Tracer::new(scene)?.with_ray_start(start);
-        let Frame {
-            color,
-            primary: Some(primary),
-            reflected: Some(reflected),
-            ..
-        } = tracer.render(&RenderOptions {
-            samples: side,
-            ..RenderOptions::new(size, truth)
-        })
-        else {
-            unreachable!("the tracer fills all layers");
-        };
-        let view = scene.camera.view(size);
-        let [width, height] = size;
-        let mut direction = Image::filled(size, Vec3::ZERO);
-        for y in 0..height {
-            for x in 0..width {
-                let at = DVec2::new(f64::from(x), f64::from(y)) + 0.5;
-                let pixel = tracer.reflect_pixel(&view, at, Truth::FirstBounce);
-                if let Some(reflection) = pixel.reflection {
-                    *direction.at_mut(x, y) = reflection.direction.as_vec3();
-                }
-            }
-        }
-        Ok(Self {
-            color,
-            primary,
-            reflected,
-            direction,
-            start,
-            side,
-        })
-    }
-}
-
-/// The layers by which pixels are chosen, as far as a picture has them.
-pub struct Theirs {
-    /// `primary.id`
-    pub primary_id: Option<Image<u32>>,
-    /// `reflected.id`
-    pub reflected_id: Option<Image<u32>>,
-    /// `reflected.status`
-    pub status: Option<Image<Status>>,
-    /// `bounces`
-    pub bounces: Option<Image<u32>>,
-}
-
-impl Theirs {
-    fn new(channels: &Channels) -> Result<Self, FrameError> {
-        Ok(Self {
-            primary_id: channels.integers("primary.id")?,
-            reflected_id: channels.integers("reflected.id")?,
-            status: channels.statuses("reflected.status")?,
-            bounces: channels.integers("bounces")?,
-        })
-    }
-}
+use super::ours::Ours;
+use super::theirs::Theirs;
 
 /// Everything that a picture brings, compared with ours.
 pub struct Measured {

@@ -1,10 +1,14 @@
 //! Records for tests of whatever reads records.
 
-use catoptric_frame::Triangles;
-use catoptric_metrics::{Discard, Jitter, OffsetShare, Region, Temporal};
-use serde_json::json;
+use catoptric_frame::{Triangles, Work};
+use catoptric_metrics::{
+    ColorError, Coverage, Discard, Jitter, Mismatch, NonFinite, OffsetShare, Region, Regions,
+    Summary, Temporal, Timing, VertexReport,
+};
+use serde_json::{Value, json};
 
-use super::*;
+use super::row::*;
+use super::{read, schema, write};
 
 const SUMMARY: Summary = Summary {
     mean: 0.5,
@@ -233,7 +237,7 @@ fn records_keep_to_the_schema() {
 fn the_schema_knows_every_field_of_the_design() {
     let mut missing = Vec::new();
     let known = schema::metrics();
-    for (path, value) in crate::print::leaves(&design()) {
+    for (path, value) in super::path::leaves(&design()) {
         let pass = path.starts_with("time_ms.passes.");
         if value.is_number() && path != "schema_version" && !pass && !known.contains(&path) {
             missing.push(path);

@@ -5,11 +5,14 @@
 //! alternative to all techniques costs: its hierarchy, built once or for every frame, gone through
 //! by a shader or by ray queries in hardware.
 
-use crate::plot::{Axis, Scale};
-use crate::report::words::{percent, short};
+use crate::show::number::{percent, short};
+use crate::show::plot::{Axis, Scale};
 
-use super::results::power;
-use super::{Figure, Point, Quantity, Results, Series, Suite};
+use crate::suites::figure::{Figure, Quantity};
+use crate::suites::results::Results;
+use crate::suites::results::power;
+use crate::suites::series::{Point, Series};
+use crate::suites::suite::{Asked, Budget, Layout, Suite};
 
 /// The suite.
 pub const SUITE: Suite = Suite {
@@ -19,7 +22,9 @@ pub const SUITE: Suite = Suite {
           drawn from, and what do ray-traced reflections cost where a scene moves?",
     figures,
     pictures: None,
-    timing_s: 45.0,
+    timing: Budget::Whole(45.0),
+    resolution: None,
+    layout: Layout::Figures,
 };
 
 const EXACT: &str = "exact mirror";
@@ -67,7 +72,8 @@ const BUILD_CPU: &str = "time_ms.build.median";
 const BUILD_GPU: &str = "time_ms.passes.build";
 const TRACE: &str = "time_ms.passes.trace";
 
-fn figures(scene: Option<&str>) -> Vec<Figure> {
+fn figures(asked: &Asked<'_>) -> Vec<Figure> {
+    let scene = asked.scene;
     if let Some(scene) = scene {
         let axis = Axis {
             label: "scene".to_owned(),

@@ -1,8 +1,10 @@
-//! What a figure of a suite is: an axis, series of points along it, and what is drawn against it.
+//! What a figure of a suite is: an axis, series of points along it, what is drawn against it, and
+//! what is said about it.
 
-use crate::plot::{Axis, Scale};
+use crate::show::plot::{Axis, Scale};
 
-use super::Results;
+use super::series::{Ask, Series};
+use crate::suites::results::Results;
 
 /// A sweep, and what is shown of it.
 #[derive(Clone, Debug)]
@@ -36,59 +38,6 @@ impl Figure {
             .flat_map(|series| series.points.iter().map(|point| point.resolution));
         let first = sizes.next()??;
         sizes.all(|size| size == Some(first)).then_some(first)
-    }
-}
-
-/// Points of one kind, from left to right.
-#[derive(Clone, Debug)]
-pub struct Series {
-    /// In the legend; unique in the figure.
-    pub label: String,
-    /// From left to right.
-    pub points: Vec<Point>,
-}
-
-/// A scene and a technique, and where they stand on the axis.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Point {
-    /// On the axis.
-    pub x: f64,
-    /// Built-in name or scene file.
-    pub scene: String,
-    /// Picture size; `None` for the scene's own.
-    pub resolution: Option<[u32; 2]>,
-    /// Name, with options.
-    pub technique: String,
-    /// Frames of the scene's motion to follow (the record's `temporal`); the largest of a scene's
-    /// points holds for all of them.
-    pub frames: Option<u32>,
-    /// Whether its pictures come on the page.
-    pub picture: bool,
-    /// A number of its record that says where it stands on the axis, in place of `x`: error against
-    /// time, for example.
-    pub along: Option<&'static str>,
-}
-
-impl Point {
-    /// A point without pictures, in the scene's own size.
-    pub fn new(x: f64, scene: impl Into<String>, technique: impl Into<String>) -> Self {
-        Self {
-            x,
-            scene: scene.into(),
-            resolution: None,
-            technique: technique.into(),
-            frames: None,
-            picture: false,
-            along: None,
-        }
-    }
-
-    /// The same point with its pictures on the page.
-    pub fn shown(self) -> Self {
-        Self {
-            picture: true,
-            ..self
-        }
     }
 }
 
@@ -165,17 +114,4 @@ pub struct Quote {
     pub on: &'static str,
     /// Our number for it; `None` where we have no such thing.
     pub ours: Option<Ask>,
-}
-
-/// A number of ours: of the point of a series, which is nearest to `x`.
-#[derive(Clone, Copy, Debug)]
-pub struct Ask {
-    /// The label of the series.
-    pub series: &'static str,
-    /// On the axis.
-    pub x: f64,
-    /// Where it stands in the record.
-    pub path: &'static str,
-    /// Written behind it.
-    pub unit: &'static str,
 }

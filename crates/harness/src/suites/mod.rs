@@ -30,41 +30,23 @@ mod estalella;
 mod figure;
 mod page;
 mod papers;
+mod pictures;
 mod plan;
+pub mod report;
 mod results;
+pub mod runner;
 mod search;
+mod series;
+mod suite;
 mod tessellation;
 
-use std::path::{Path, PathBuf};
-
-use crate::cli::{BenchArgs, Common, Format};
-use crate::exit::{Outcome, bad_input};
-use crate::record::{self, Record, Status};
-use crate::report::pictures;
-use crate::setup::Setup;
+use crate::exit::bad_input;
 use crate::suggest::suggest;
 
-pub use figure::{Ask, Figure, Guide, Point, Quantity, Quote, Series};
+pub use figure::{Figure, Guide, Quantity, Quote};
 pub use results::Results;
-
-/// A named set of figures.
-pub struct Suite {
-    /// As on the command line.
-    pub name: &'static str,
-    /// Heading of the page.
-    pub title: &'static str,
-    /// What is asked, in a sentence or two.
-    pub why: &'static str,
-    /// The figures, given the user's scene.
-    pub figures: fn(Option<&str>) -> Vec<Figure>,
-    /// Pictures other than those of points; `None` where there are none.
-    pub pictures: Option<MakePictures>,
-    /// Seconds of timing in all, where the user does not say.
-    pub timing_s: f64,
-}
-
-/// Makes pictures of a suite's own kind.
-pub type MakePictures = fn(&Studio<'_>) -> anyhow::Result<Vec<Picture>>;
+pub use series::{Ask, Point, Series};
+pub use suite::{Asked, Budget, Layout, Picture, Studio, Suite};
 
 /// Every suite, by name.
 pub const SUITES: [&Suite; 7] = [
@@ -77,33 +59,6 @@ pub const SUITES: [&Suite; 7] = [
     &papers::SUITE,
 ];
 
-/// What a suite's own pictures are made with.
-pub struct Studio<'s> {
-    /// Adapter and scenes.
-    pub setup: &'s Setup,
-    /// The user's scene.
-    pub scene: Option<&'s str>,
-    /// How scenes are to be loaded.
-    pub common: &'s Common,
-    /// The folder of the page; pictures go into [`pictures::FOLDER`] inside it.
-    pub folder: &'s Path,
-}
-
-/// A picture of a suite's own kind, written already.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Picture {
-    /// The figure under which it stands.
-    pub figure: &'static str,
-    /// Path, relative to the page.
-    pub path: String,
-    /// Width and height in pixels.
-    pub size: [u32; 2],
-    /// What it shows, for everyone.
-    pub caption: String,
-    /// What is to be seen, for those who cannot.
-    pub alt: String,
-}
-
 /// The suites for `bench --help`: one a line, with its heading.
 pub fn help() -> String {
     let width = SUITES.iter().map(|suite| suite.name.len()).max();
@@ -115,80 +70,8 @@ pub fn help() -> String {
     format!("Suites:{lines}")
 }
 
-/// Runs a suite and writes its page.
-pub fn run(args: &BenchArgs, common: &Common) -> anyhow::Result<Outcome> {
-    let suite = match args.full {
-        false => find(&args.suite)?,
-        true => whole(find(&args.suite)?)?,
-    };
-    let mut figures = (suite.figures)(args.scene.as_deref());
-    if let Some(size) = common.resolution {
-        // All is measured in the size asked for, so that is where a figure finds its points.
-        let series = figures.iter_mut().flat_map(|figure| &mut figure.series);
-        for point in series.flat_map(|series| &mut series.points) {
-            point.resolution = Some(size);
-        }
-    }
-    let timing = args.time_budget.unwrap_or(suite.timing_s);
-    let setup = Setup::new(&plan::wanted(&figures, timing), common)?;
-    let default = || PathBuf::from(format!("bench-{}", suite.name));
-    let folder = common.output.clone().unwrap_or_else(default);
-    crate::report::make_folder(&folder)?;
-
-    let record_path = folder.join("record.json");
-    let rows = crate::measure(&setup, |measured, rows| {
-        if let Some(measured) = measured {
-            let shown = |row: &Record| plan::shown(&figures, row);
-            pictures::write(&measured, &folder, shown)?;
-        }
-        record::write(rows, &record_path)
-    })?;
-    let own = match suite.pictures {
-        Some(make) if !crate::pipeline::interrupted() => make(&Studio {
-            setup: &setup,
-            scene: args.scene.as_deref(),
-            common,
-            folder: &folder,
-        })?,
-        _ => Vec::new(),
-    };
-    let index = page::write(suite, &figures, &rows, &own, &folder)?;
-    print(&rows, &index, common)?;
-    Ok(outcome(&rows, setup.rows()))
-}
-
-/// The records in the format asked for; as a table, where the page is.
-fn print(rows: &[Record], index: &Path, common: &Common) -> anyhow::Result<()> {
-    if common.format == Format::Table {
-        return crate::print::text(&format!("{}\n", index.display()));
-    }
-    let values: Vec<_> = rows.iter().map(Record::to_value).collect();
-    crate::print::records(&values, common.format)
-}
-
-fn outcome(rows: &[Record], wanted: usize) -> Outcome {
-    let failed = rows.iter().filter(|row| row.status == Status::Failed);
-    let failed = failed.count();
-    if failed > 0 {
-        eprintln!(
-            "catoptric: {failed} of {} rows failed; the page says why",
-            rows.len()
-        );
-    }
-    if rows.len() < wanted {
-        eprintln!(
-            "catoptric: interrupted after {} of {wanted} rows",
-            rows.len()
-        );
-    }
-    match failed == 0 && rows.len() == wanted {
-        true => Outcome::Done,
-        false => Outcome::FellShort,
-    }
-}
-
 /// The suite that measures every cell: its name ends in `-full`.
-fn whole(suite: &Suite) -> anyhow::Result<&'static Suite> {
+pub fn whole(suite: &Suite) -> anyhow::Result<&'static Suite> {
     let name = format!("{}-full", suite.name);
     let found = SUITES.into_iter().find(|other| other.name == name);
     found.ok_or_else(|| {
@@ -197,7 +80,8 @@ fn whole(suite: &Suite) -> anyhow::Result<&'static Suite> {
     })
 }
 
-fn find(name: &str) -> anyhow::Result<&'static Suite> {
+/// The suite of this name.
+pub fn find(name: &str) -> anyhow::Result<&'static Suite> {
     if let Some(suite) = SUITES.iter().find(|suite| suite.name == name) {
         return Ok(suite);
     }
@@ -212,13 +96,17 @@ fn find(name: &str) -> anyhow::Result<&'static Suite> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gate::is_metric;
+    use crate::record::gate::is_metric;
+
+    fn all() -> impl Iterator<Item = &'static Suite> {
+        SUITES.into_iter().chain([&report::QUICK, &report::FULL])
+    }
 
     #[test]
     fn what_suites_name_exists() {
         let scenes = catoptric_scene::builtin::names();
-        for suite in SUITES {
-            for figure in (suite.figures)(None) {
+        for suite in all() {
+            for figure in (suite.figures)(&Asked::default()) {
                 let what = format!("{}, {}", suite.name, figure.anchor);
                 assert!(!figure.series.is_empty(), "{what}");
                 for quantity in &figure.quantities {
@@ -239,7 +127,7 @@ mod tests {
                         point.along
                     );
                     assert!(scenes.contains(&point.scene), "{what}: {}", point.scene);
-                    let technique = crate::setup::parse(&point.technique);
+                    let technique = crate::run::load::parse(&point.technique);
                     assert!(technique.is_ok(), "{what}: {technique:?}");
                 }
             }
@@ -253,7 +141,7 @@ mod tests {
         names.dedup();
         assert_eq!(names.len(), SUITES.len());
         for suite in SUITES {
-            let figures = (suite.figures)(None);
+            let figures = (suite.figures)(&Asked::default());
             let mut anchors: Vec<&str> = figures.iter().map(|figure| figure.anchor).collect();
             anchors.sort_unstable();
             anchors.dedup();
@@ -263,8 +151,12 @@ mod tests {
 
     #[test]
     fn a_scene_of_the_users_takes_the_place_of_ours() {
-        for suite in SUITES {
-            for figure in (suite.figures)(Some("mine.toml")) {
+        let asked = Asked {
+            scene: Some("mine.toml"),
+            ..Asked::default()
+        };
+        for suite in all() {
+            for figure in (suite.figures)(&asked) {
                 for point in figure.series.iter().flat_map(|series| &series.points) {
                     assert_eq!(
                         point.scene, "mine.toml",

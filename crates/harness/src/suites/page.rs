@@ -8,14 +8,16 @@ use askama::Template;
 use catoptric_frame::write_whole;
 use serde_json::Value;
 
-use crate::cli::Format;
-use crate::plot::{Axis, Plot, Point as Mark, Scale, Series as Marks, TALL};
-use crate::print::significant;
+use crate::options::Format;
 use crate::record::{Record, Status};
-use crate::report::{page, pictures, words};
-use crate::table::Table;
+use crate::show::number::{or_dash, short, significant};
+use crate::show::plot::{Axis, Plot, Point as Mark, Scale, Series as Marks, TALL};
+use crate::show::table::Table;
+use crate::show::{facts, pictures, words};
 
-use super::{Figure, Picture, Quantity, Quote, Results, Suite};
+use super::figure::{Figure, Quantity, Quote};
+use super::suite::{Picture, Suite};
+use crate::suites::results::Results;
 
 /// Folder of the plots and tables, inside the page's.
 const FOLDER: &str = "figures";
@@ -28,10 +30,10 @@ struct Page<'p> {
     blanks: Vec<String>,
     angle_labels: &'static [&'static str],
     scale: &'static str,
-    coverage: Vec<page::Fact>,
+    coverage: Vec<facts::Fact>,
     noise_floor: Option<String>,
     software: Option<String>,
-    environment: Vec<page::Fact>,
+    environment: Vec<facts::Fact>,
     command: String,
     measured: usize,
 }
@@ -92,7 +94,7 @@ pub fn write(
         write_whole(folder.join(&figure.csv), table.as_bytes())?;
     }
     for (figure, shown) in figures.iter().zip(&shown) {
-        let plots = plots(figure, &Results::new(figure, &values));
+        let plots = plots(figure, &Results::new(&figure.series, &values));
         for (plot, diagram) in plots.iter().zip(&shown.plots) {
             let file = plot.file()?.unwrap_or_default();
             write_whole(folder.join(&diagram.path), file.as_bytes())?;
@@ -110,11 +112,11 @@ pub fn write(
             .collect(),
         angle_labels: &pictures::ANGLE_LABELS,
         scale: pictures::SCALE,
-        coverage: page::coverage_legend(),
+        coverage: facts::coverage_legend(),
         noise_floor: words::noise_floor(rows),
-        software: page::software(rows),
-        environment: page::environment(rows),
-        command: page::command(rows),
+        software: facts::software(rows),
+        environment: facts::environment(rows),
+        command: facts::command(rows),
         measured: rows.len(),
     };
     let path = folder.join("index.html");
@@ -128,7 +130,7 @@ fn show<'p>(
     values: &'p [(Record, Value)],
     own: &'p [Picture],
 ) -> anyhow::Result<Shown<'p>> {
-    let results = Results::new(figure, values);
+    let results = Results::new(&figure.series, values);
     let mut diagrams = Vec::new();
     for (plot, quantity) in plots(figure, &results).iter().zip(&figure.quantities) {
         let Some(svg) = plot.inline()? else { continue };
@@ -145,7 +147,7 @@ fn show<'p>(
             let answer = results.answer(&ask);
             answer.map_or_else(
                 || "not measured".to_owned(),
-                |value| format!("{} {}", words::short(value), ask.unit),
+                |value| format!("{} {}", short(value), ask.unit),
             )
         }),
     });
@@ -244,12 +246,12 @@ fn table(figure: &Figure, results: &Results<'_>) -> Table {
                 Scale::Linear | Scale::Close | Scale::Log if point.along.is_none() => {
                     format!("{}", point.x)
                 }
-                Scale::Linear | Scale::Close | Scale::Log => words::or_dash(results.place(point)),
+                Scale::Linear | Scale::Close | Scale::Log => or_dash(results.place(point)),
             };
             let values = figure
                 .quantities
                 .iter()
-                .map(|quantity| words::or_dash(results.value(point, quantity.path)));
+                .map(|quantity| or_dash(results.value(point, quantity.path)));
             let first = [
                 series.label.clone(),
                 x,

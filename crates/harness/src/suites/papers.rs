@@ -1,10 +1,13 @@
 //! `catoptric bench papers`: the techniques of all four papers side by side, in one table and, scene
 //! by scene, error against time.
 
-use crate::plot::{Axis, Scale};
-use crate::report::words::percent;
+use crate::show::number::percent;
+use crate::show::plot::{Axis, Scale};
 
-use super::{Figure, Point, Quantity, Results, Series, Suite};
+use crate::suites::figure::{Figure, Quantity};
+use crate::suites::results::Results;
+use crate::suites::series::{Point, Series};
+use crate::suites::suite::{Asked, Budget, Layout, Suite};
 
 /// The suite.
 pub const SUITE: Suite = Suite {
@@ -13,7 +16,9 @@ pub const SUITE: Suite = Suite {
     why: "Which technique of which paper is exact where, at what cost?",
     figures,
     pictures: None,
-    timing_s: 120.0,
+    timing: Budget::Whole(120.0),
+    resolution: None,
+    layout: Layout::Figures,
 };
 
 /// Small enough that all of them can be measured on a software adapter.
@@ -65,7 +70,8 @@ const SCENES: [&str; 8] = [
     "room",
 ];
 
-fn figures(scene: Option<&str>) -> Vec<Figure> {
+fn figures(asked: &Asked<'_>) -> Vec<Figure> {
+    let scene = asked.scene;
     let Some(scene) = scene else {
         let scatters = SCENES.map(|scene| scatter(scene, scene));
         return [table(&SCENES)].into_iter().chain(scatters).collect();

@@ -3,16 +3,18 @@
 use std::time::Duration;
 
 use crate::record::Record;
-use crate::setup::Wanted;
+use crate::run::Wanted;
 
-use super::{Figure, Point};
+use super::figure::Figure;
+use super::series::Point;
+use super::suite::Budget;
 
-/// All points of all figures without doubles, by scene and size in order of appearance. Each
-/// scene's part of the `timing` seconds is that of its techniques among all.
+/// All points of all figures without doubles, by scene and size in order of appearance. Of a
+/// timing in all, each scene's part is that of its techniques among all.
 ///
 /// Only so many techniques are timed in turn: of a figure first the first points of all its series,
 /// then the second ones, so that the same drift meets those that a figure compares.
-pub fn wanted(figures: &[Figure], timing: f64) -> Vec<Wanted> {
+pub fn wanted(figures: &[Figure], timing: Budget) -> Vec<Wanted> {
     let mut jobs: Vec<Wanted> = Vec::new();
     let ranked = figures.iter().flat_map(|figure| {
         let longest = figure.series.iter().map(|series| series.points.len()).max();
@@ -47,25 +49,17 @@ pub fn wanted(figures: &[Figure], timing: f64) -> Vec<Wanted> {
     let rows: usize = jobs.iter().map(|job| job.techniques.len()).sum();
     for job in &mut jobs {
         let share = job.techniques.len() as f64 / rows as f64;
-        job.timing = Duration::from_secs_f64(timing * share);
+        job.timing = Duration::from_secs_f64(match timing {
+            Budget::Whole(seconds) => seconds * share,
+            Budget::EachScene(seconds) => seconds,
+        });
     }
     jobs
 }
 
 /// Whether a row's pictures are asked for.
 pub fn shown(figures: &[Figure], row: &Record) -> bool {
-    points(figures).any(|point| point.picture && is_of(row, point))
-}
-
-/// Whether a row holds the measurement of a point. Names may be spelled differently: options in
-/// another order, a scene file by its path.
-pub fn is_of(row: &Record, point: &Point) -> bool {
-    let spec = |name: &str| catoptric_reflect::parse(name).ok();
-    let means = || spec(&point.technique).is_some_and(|asked| spec(&row.technique) == Some(asked));
-    let size = point.resolution.is_none_or(|size| size == row.resolution);
-    let stem = || std::path::Path::new(&point.scene).file_stem();
-    size && (row.scene == point.scene || stem().is_some_and(|stem| stem == row.scene.as_str()))
-        && (row.technique == point.technique || means())
+    points(figures).any(|point| point.picture && point.is_of(row))
 }
 
 fn points(figures: &[Figure]) -> impl Iterator<Item = &Point> {
@@ -76,9 +70,8 @@ fn points(figures: &[Figure]) -> impl Iterator<Item = &Point> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::Axis;
-    use crate::record::tests::measured;
-    use crate::suites::Series;
+    use crate::show::plot::Axis;
+    use crate::suites::series::Series;
 
     fn figure(points: Vec<Point>) -> Figure {
         Figure {
@@ -107,7 +100,7 @@ mod tests {
         };
         let jobs = wanted(
             &[figure(vec![shared(), other]), figure(vec![shared(), large])],
-            30.0,
+            Budget::Whole(30.0),
         );
         let names: Vec<_> = jobs.iter().map(|job| job.scene.as_str()).collect();
         assert_eq!(names, ["bowl", "planar", "bowl"]);
@@ -127,22 +120,8 @@ mod tests {
                 point(2.0, "newton"),
             ],
         });
-        let jobs = wanted(&[both], 1.0);
+        let jobs = wanted(&[both], Budget::Whole(1.0));
         let order = ["linear", "planar", "linear+full", "ray-trace", "newton"];
         assert_eq!(jobs[0].techniques, order);
-    }
-
-    #[test]
-    fn rows_are_found_by_any_spelling() {
-        let row = measured("bowl", "linear(neighbours=8,residual=cross)");
-        let other = "linear(residual=cross,neighbours=8)";
-        assert!(is_of(&row, &Point::new(0.0, "bowl", other)));
-        assert!(is_of(&row, &Point::new(0.0, "mine/bowl.toml", other)));
-        assert!(!is_of(&row, &Point::new(0.0, "bowl", "linear")));
-        let size = Point {
-            resolution: Some([1, 1]),
-            ..Point::new(0.0, "bowl", other)
-        };
-        assert!(!is_of(&row, &size));
     }
 }

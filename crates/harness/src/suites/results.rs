@@ -2,26 +2,26 @@
 
 use serde_json::Value;
 
-use crate::gate::lookup;
+use crate::record::path::lookup;
 use crate::record::{Record, Status};
 
-use super::{Ask, Figure, Point, Series, plan};
+use super::series::{Ask, Point, Series};
 
 /// The rows of one figure.
 pub struct Results<'r> {
-    figure: &'r Figure,
+    series: &'r [Series],
     rows: &'r [(Record, Value)],
 }
 
 impl<'r> Results<'r> {
     /// `rows` are all rows of the suite, each with its JSON.
-    pub fn new(figure: &'r Figure, rows: &'r [(Record, Value)]) -> Self {
-        Self { figure, rows }
+    pub fn new(series: &'r [Series], rows: &'r [(Record, Value)]) -> Self {
+        Self { series, rows }
     }
 
     /// All series of the figure.
     pub fn series(&self) -> &'r [Series] {
-        &self.figure.series
+        self.series
     }
 
     /// The row of a point; `None` where it is not measured (yet).
@@ -30,12 +30,12 @@ impl<'r> Results<'r> {
     }
 
     fn find(&self, point: &Point) -> Option<&'r (Record, Value)> {
-        self.rows.iter().find(|(row, _)| plan::is_of(row, point))
+        self.rows.iter().find(|(row, _)| point.is_of(row))
     }
 
     /// The row of the last measured point of a series.
     pub fn last(&self, series: &str) -> Option<&'r Record> {
-        let mut all = self.figure.series.iter();
+        let mut all = self.series.iter();
         let series = all.find(|found| found.label == series)?;
         series.points.iter().rev().find_map(|point| self.row(point))
     }
@@ -56,11 +56,7 @@ impl<'r> Results<'r> {
 
     /// Place on the axis and number of all points of a series that have it.
     pub fn curve(&self, series: &str, path: &str) -> Vec<(f64, f64)> {
-        let found = self
-            .figure
-            .series
-            .iter()
-            .find(|found| found.label == series);
+        let found = self.series.iter().find(|found| found.label == series);
         let points = found.into_iter().flat_map(|series| &series.points);
         points
             .filter_map(|point| Some((self.place(point)?, self.value(point, path)?)))
@@ -69,7 +65,7 @@ impl<'r> Results<'r> {
 
     /// The number of a series at the point that stands at `x`; `None` where that one has none.
     pub fn at(&self, series: &str, x: f64, path: &str) -> Option<f64> {
-        let series = (self.figure.series.iter()).find(|found| found.label == series)?;
+        let series = (self.series.iter()).find(|found| found.label == series)?;
         let mut points = series.points.iter();
         let point = points.find(|point| self.place(point) == Some(x))?;
         self.value(point, path)

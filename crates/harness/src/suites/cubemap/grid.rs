@@ -1,9 +1,11 @@
 //! Table 5.2: windows, face sizes, the flags A, E, L and S, and scenes; each cell with its error.
 
-use crate::report::words::{count, percent, short};
-use crate::suites::{Ask, Figure, Point, Quantity, Quote, Results, Series};
+use crate::show::number::{count, percent, short};
+use crate::suites::figure::{Figure, Quantity, Quote};
+use crate::suites::results::Results;
+use crate::suites::series::{Ask, Point, Series};
 
-use super::{
+use super::data::{
     AGREEMENT, FRAME_MS, FULL_AGREEMENT, NODES, SAMPLES, TRACE_MS, UNRESOLVED, names, ns_per_pixel,
     quantities,
 };

@@ -6,8 +6,11 @@ use catoptric_frame::{Image, write_png_rgb8};
 use catoptric_metrics::maps::{Colormap, colorize};
 use catoptric_scene::Scene;
 
-use crate::report::pictures::{FOLDER, slug};
-use crate::suites::{Picture, Studio};
+use crate::output::PICTURES as FOLDER;
+use crate::show::pictures::slug;
+use crate::suites::suite::{Picture, Studio};
+
+use super::data::SIZE;
 
 /// Label and options.
 const SHOWN: [(&str, &str); 4] = [
@@ -26,13 +29,13 @@ const SHOWN: [(&str, &str); 4] = [
 /// Draws the maps on one scale.
 pub fn pictures(studio: &Studio<'_>) -> anyhow::Result<Vec<Picture>> {
     let name = studio.scene.unwrap_or("box");
-    let mut options = crate::setup::load_options(studio.common);
-    options.resolution = options.resolution.or(Some(super::SIZE));
+    let mut options = crate::run::load::load_options(studio.common);
+    options.resolution = options.resolution.or(Some(SIZE));
     let scene = Scene::load(name, &options)?;
     let mut maps = Vec::new();
     for (label, options) in SHOWN {
-        let spec = crate::setup::parse(&format!("cubemap-trace({options})"))?;
-        let rendered = crate::pipeline::render(&studio.setup.gpu, &spec, &scene);
+        let spec = crate::run::load::parse(&format!("cubemap-trace({options})"))?;
+        let rendered = crate::run::render::render(&studio.setup.gpu, &spec, &scene);
         let traced = rendered.ok().and_then(|rendered| rendered.output.traced);
         maps.extend(traced.map(|traced| (label, traced)));
     }

@@ -6,8 +6,9 @@ use catoptric_metrics::maps::{Colormap, colorize};
 use catoptric_reflect::DistanceLevel;
 use catoptric_scene::Scene;
 
-use crate::report::pictures::{FOLDER, slug};
-use crate::suites::{Picture, Studio};
+use crate::output::PICTURES as FOLDER;
+use crate::show::pictures::slug;
+use crate::suites::suite::{Picture, Studio};
 
 /// One map, so that its six faces are all there is.
 const TECHNIQUE: &str = "cubemap-trace(size=128,objects=1,pyramid=sound)";
@@ -22,9 +23,9 @@ const GAP: usize = 4;
 /// Draws least and greatest distances: a row a level, a column a face.
 pub fn pictures(studio: &Studio<'_>) -> anyhow::Result<Vec<Picture>> {
     let name = studio.scene.unwrap_or("box");
-    let scene = Scene::load(name, &crate::setup::load_options(studio.common))?;
-    let spec = crate::setup::parse(TECHNIQUE)?;
-    let rendered = crate::pipeline::render(&studio.setup.gpu, &spec, &scene);
+    let scene = Scene::load(name, &crate::run::load::load_options(studio.common))?;
+    let spec = crate::run::load::parse(TECHNIQUE)?;
+    let rendered = crate::run::render::render(&studio.setup.gpu, &spec, &scene);
     let levels = rendered
         .ok()
         .and_then(|rendered| rendered.distance_levels());

@@ -1,26 +1,20 @@
 //! One option at a time: criterion, sampling, acceleration, stage, what unresolved pixels show.
 
-use crate::plot::Axis;
-use crate::report::words::{percent, short};
-use crate::suites::{Figure, Quantity, Results};
+use crate::show::number::{percent, short};
+use crate::show::plot::Axis;
+use crate::suites::figure::{Figure, Quantity};
+use crate::suites::results::Results;
 
-use super::{AGREEMENT, NODE_TESTS, NODES, SAMPLES, by_scene, names, quantities};
+use super::data::{AGREEMENT, NODE_TESTS, NODES, SAMPLES, by_scene, names, quantities};
 
-/// Where one option is looked at.
-pub const SCENES: [&str; 2] = ["sphere-objects-1k", "box"];
-
-pub fn figures(scene: Option<&str>) -> Vec<Figure> {
-    let own = scene.map(|scene| [scene]);
-    let scenes = own.as_ref().map_or(SCENES.as_slice(), |scene| scene);
-    let mut figures = vec![
+pub fn figures(scenes: &[&str]) -> Vec<Figure> {
+    vec![
         criteria(scenes),
         samplings(scenes),
         pyramids(scenes),
         unresolved(scenes),
         stages(scenes),
-    ];
-    figures.extend(super::sweeps::figures(scene, scenes));
-    figures
+    ]
 }
 
 pub fn cubemap(options: &str) -> String {

@@ -5,11 +5,12 @@ use anyhow::Context;
 use catoptric_frame::{Frame, Image, Status, write_png_rgb8};
 use catoptric_scene::Scene;
 
-use crate::report::pictures::{FOLDER, slug};
-use crate::report::words::percent;
-use crate::suites::{Picture, Studio};
+use crate::output::PICTURES as FOLDER;
+use crate::show::number::percent;
+use crate::show::pictures::slug;
+use crate::suites::suite::{Picture, Studio};
 
-use super::options::SCENES;
+use super::data::{SCENES, SIZE};
 
 /// Label and options of what is rendered without skipping, with the published and with the sound
 /// test.
@@ -35,8 +36,8 @@ pub fn pictures(studio: &Studio<'_>) -> anyhow::Result<Vec<Picture>> {
     let scenes = own.as_ref().map_or(SCENES.as_slice(), |scene| scene);
     let mut pictures = Vec::new();
     for name in scenes {
-        let mut options = crate::setup::load_options(studio.common);
-        options.resolution = options.resolution.or(Some(super::SIZE));
+        let mut options = crate::run::load::load_options(studio.common);
+        options.resolution = options.resolution.or(Some(SIZE));
         let scene = Scene::load(name, &options)?;
         for (label, options) in SAMPLED {
             pictures.extend(picture(studio, &scene, label, options)?);
@@ -54,8 +55,8 @@ fn picture(
 ) -> anyhow::Result<Option<Picture>> {
     let mut frames = Vec::new();
     for pyramid in ["off", "published", "sound"] {
-        let spec = crate::setup::parse(&format!("cubemap-trace({options},pyramid={pyramid})"))?;
-        match crate::pipeline::render(&studio.setup.gpu, &spec, scene) {
+        let spec = crate::run::load::parse(&format!("cubemap-trace({options},pyramid={pyramid})"))?;
+        match crate::run::render::render(&studio.setup.gpu, &spec, scene) {
             Ok(rendered) => frames.push(rendered.output.frame),
             Err(_) => return Ok(None),
         }

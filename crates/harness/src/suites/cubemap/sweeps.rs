@@ -1,13 +1,17 @@
 //! Sweeps: exactness and cost against the size of the faces, the number of maps, what drawing them
 //! anew costs, and how many rays are followed.
 
-use crate::plot::Axis;
-use crate::report::words::{percent, short};
+use crate::show::number::{percent, short};
+use crate::show::plot::Axis;
+use crate::suites::figure::{Figure, Quantity, Quote};
+use crate::suites::results::Results;
 use crate::suites::results::power;
-use crate::suites::{Ask, Figure, Quantity, Quote, Results, Series};
+use crate::suites::series::{Ask, Series};
 
+use super::data::{
+    AGREEMENT, ANGLE, FRAME_MS, FULL_AGREEMENT, SAMPLES, UNRESOLVED, point, quantities,
+};
 use super::options::{cubemap, figure, values};
-use super::{AGREEMENT, ANGLE, FRAME_MS, FULL_AGREEMENT, SAMPLES, UNRESOLVED, point, quantities};
 
 pub fn figures(scene: Option<&str>, scenes: &[&str]) -> Vec<Figure> {
     vec![

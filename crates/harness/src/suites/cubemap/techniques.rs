@@ -1,12 +1,16 @@
 //! Techniques beside each other: all of them, what they can do (Table 5.1), and how the cost grows
 //! with the scene.
 
-use crate::plot::Axis;
-use crate::report::words::{count, percent, short};
+use crate::show::number::{count, percent, short};
+use crate::show::plot::Axis;
+use crate::suites::figure::{Figure, Quantity};
+use crate::suites::results::Results;
 use crate::suites::results::{power, power_error};
-use crate::suites::{Figure, Point, Quantity, Results, Series};
+use crate::suites::series::{Point, Series};
 
-use super::{AGREEMENT, FRAME_MS, FULL_AGREEMENT, SAMPLES, TRACE_MS, UNRESOLVED, names, point};
+use super::data::{
+    AGREEMENT, FRAME_MS, FULL_AGREEMENT, SAMPLES, TRACE_MS, UNRESOLVED, names, point,
+};
 
 const PREPARE_MS: &str = "time_ms.prepare";
 /// A cost that grows as the scene to a smaller power counts as flat.

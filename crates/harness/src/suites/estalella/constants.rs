@@ -1,12 +1,14 @@
 //! What the paper leaves open: how much interpolation costs, and the constants of the adaptive
 //! step.
 
-use crate::plot::Axis;
-use crate::report::words::short;
+use crate::show::number::short;
+use crate::show::plot::Axis;
 
-use super::super::results::power;
-use super::super::{Figure, Point, Quantity, Results, Series};
-use super::{MEAN_PX, MEDIAN_PX, P95_PX, search};
+use super::data::{MEAN_PX, MEDIAN_PX, P95_PX, search};
+use crate::suites::figure::{Figure, Quantity};
+use crate::suites::results::Results;
+use crate::suites::results::power;
+use crate::suites::series::{Point, Series};
 
 /// A figure for the edge of a cell and one for each constant.
 pub fn figures() -> [Figure; 4] {

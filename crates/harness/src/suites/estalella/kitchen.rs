@@ -1,11 +1,15 @@
 //! Fig. 6, 7 and 8: a kitchen by several methods, by grids of several densities, and with several
 //! numbers of iterations.
 
-use crate::plot::Axis;
-use crate::report::words::short;
+use crate::show::number::short;
+use crate::show::plot::Axis;
 
-use super::super::{Ask, Figure, Point, Quantity, Quote, Results, Series};
-use super::{AGREEMENT, EXTRA, MEAN_PX, MEDIAN_PX, MISSING, P95_PX, names, search, with_grid};
+use super::data::{
+    AGREEMENT, EXTRA, MEAN_PX, MEDIAN_PX, MISSING, P95_PX, names, search, with_grid,
+};
+use crate::suites::figure::{Figure, Quantity, Quote};
+use crate::suites::results::Results;
+use crate::suites::series::{Ask, Point, Series};
 
 const KITCHEN: &str = "kitchen";
 

@@ -7,14 +7,14 @@
 //! pictures of what the search does ([`pictures`]).
 
 mod constants;
+mod data;
 mod kitchen;
 mod pictures;
 mod silhouette;
 mod steadiness;
 
-use crate::plot::{Axis, Scale};
-
-use super::{Figure, Suite};
+use crate::suites::figure::Figure;
+use crate::suites::suite::{Asked, Budget, Layout, Suite};
 
 /// The suite.
 pub const SUITE: Suite = Suite {
@@ -24,39 +24,17 @@ pub const SUITE: Suite = Suite {
           must be searched, and what becomes of those that the mirror hides?",
     figures,
     pictures: Some(pictures::make),
-    timing_s: 90.0,
+    timing: Budget::Whole(90.0),
+    resolution: None,
+    layout: Layout::Figures,
 };
 
-const MEDIAN_PX: &str = "vertices.offset_px.p50";
-const MEAN_PX: &str = "vertices.offset_px.mean";
-const P95_PX: &str = "vertices.offset_px.p95";
-const AGREEMENT: &str = "object_agreement";
-const MISSING: &str = "coverage.missing";
-const EXTRA: &str = "coverage.extra";
-
-/// The search as the paper runs it: hidden vertices continued, true virtual depth.
-fn search(iterations: u32) -> String {
-    format!("reflector-cubemap(iterations={iterations},hidden=extend,depth=virtual)")
-}
-
-/// With so many per cent of a mesh's vertices in its grid.
-fn with_grid(iterations: u32, percent: f64) -> String {
-    let fraction = (percent * 10.0).round() / 1000.0;
-    format!("{}+grid(fraction={fraction})", search(iterations))
-}
-
-fn figures(scene: Option<&str>) -> Vec<Figure> {
+fn figures(asked: &Asked<'_>) -> Vec<Figure> {
+    let scene = asked.scene;
     let mut figures = kitchen::figures(scene);
     if scene.is_none() {
         figures.extend(constants::figures());
         figures.extend([silhouette::figure(), steadiness::figure()]);
     }
     figures
-}
-
-fn names(label: &str, names: &[&str]) -> Axis {
-    Axis {
-        label: label.to_owned(),
-        scale: Scale::Names(names.iter().map(|name| (*name).to_owned()).collect()),
-    }
 }

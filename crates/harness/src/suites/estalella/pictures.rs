@@ -9,9 +9,9 @@ use catoptric_reflect::{CubemapStep, CubemapWalk};
 use catoptric_scene::{LoadOptions, Scene, Shape};
 use glam::{DVec3, Vec3};
 
-use crate::report::pictures::FOLDER;
+use crate::output::PICTURES as FOLDER;
 
-use super::super::{Picture, Studio};
+use crate::suites::suite::{Picture, Studio};
 
 /// All pictures; none where the user asks for a scene of their own.
 pub fn make(studio: &Studio<'_>) -> anyhow::Result<Vec<Picture>> {
@@ -43,7 +43,7 @@ const SPAN: f32 = 1.0;
 /// steps of a search in it.
 fn field(studio: &Studio<'_>) -> anyhow::Result<Picture> {
     let scene = Scene::load("prototype-ellipsoid", &LoadOptions::default())?;
-    let spec = crate::setup::parse("reflector-cubemap(start=eye,hidden=extend)")?;
+    let spec = crate::run::load::parse("reflector-cubemap(start=eye,hidden=extend)")?;
     let walk = CubemapWalk::new(spec.options(), &scene, 0);
     let vertex = Vec3::new(1.3, 1.6, 1.2);
     let mut steps = Vec::new();

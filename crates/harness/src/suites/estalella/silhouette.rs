@@ -1,9 +1,11 @@
 //! Hidden vertices: what becomes of triangles that the mirror hides in part.
 
-use crate::report::words::short;
+use crate::show::number::short;
 
-use super::super::{Figure, Point, Quantity, Results, Series};
-use super::{AGREEMENT, EXTRA, MISSING, names};
+use super::data::{AGREEMENT, EXTRA, MISSING, names};
+use crate::suites::figure::{Figure, Quantity};
+use crate::suites::results::Results;
+use crate::suites::series::{Point, Series};
 
 /// Dropped or continued.
 pub fn figure() -> Figure {

@@ -1,9 +1,11 @@
 //! Flicker over a camera path.
 
-use crate::report::words::short;
+use crate::show::number::short;
 
-use super::super::{Figure, Point, Quantity, Results, Series};
-use super::{MEAN_PX, names, search, with_grid};
+use super::data::{MEAN_PX, names, search, with_grid};
+use crate::suites::figure::{Figure, Quantity};
+use crate::suites::results::Results;
+use crate::suites::series::{Point, Series};
 
 const JITTER: &str = "temporal.jitter_px.mean";
 const JITTER_P99: &str = "temporal.jitter_px.p99";

@@ -1,10 +1,10 @@
 //! What came out, and whether the thesis' claims hold here, by time and by counted work.
 
-use crate::report::words::{count, percent, short};
-use crate::suites::Results;
+use crate::show::number::{count, percent, short};
+use crate::suites::results::Results;
 use crate::suites::results::{line, power};
 
-use super::{
+use super::data::{
     CASES, ENLARGED, EVALUATIONS, FRAME_MS, JITTER_MAX, JITTER_MEAN, JUMPS, LINEAR, MOVING_MS,
     NODE_TESTS, OFFSET, OFFSET_P95, RAW, SEARCHES, STEPS, STILL_MS, STOPPED, WARM,
 };

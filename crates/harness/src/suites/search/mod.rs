@@ -8,12 +8,22 @@
 //! the same axes. Maps (Fig. 3.1) and paths (Fig. 4.2) as pictures.
 
 mod claims;
+mod data;
 mod pictures;
 
-use crate::plot::{Axis, Scale};
-use crate::report::words::CONTROL;
+use crate::show::plot::{Axis, Scale};
+use crate::show::words::CONTROL;
 
-use super::{Ask, Figure, Point, Quantity, Quote, Results, Series, Suite};
+use crate::suites::figure::{Figure, Quantity, Quote};
+use crate::suites::results::Results;
+use crate::suites::series::{Ask, Point, Series};
+use crate::suites::suite::{Asked, Budget, Layout, Suite};
+
+use self::data::{
+    CASES, ENLARGED, EVALUATIONS, FRAME_MS, FRAMES, JITTER_MAX, JITTER_MEAN, JUMPS, LINEAR, MOVING,
+    MOVING_MS, NODE_TESTS, OFFSET, OFFSET_P95, RAW, SEARCH_MS, SEARCHES, SIZES, STEPS, STILL_MS,
+    STOPPED, THESIS,
+};
 
 /// The suite.
 pub const SUITE: Suite = Suite {
@@ -24,73 +34,16 @@ pub const SUITE: Suite = Suite {
           that proposed both searches, repeated.",
     figures,
     pictures: Some(pictures::make),
-    timing_s: 110.0,
+    timing: Budget::Whole(110.0),
+    resolution: None,
+    layout: Layout::Figures,
 };
-
-const LINEAR: &str = "linear";
-const WARM: &str = "linear, warm";
-const RAW: &str = "hierarchy";
-const ENLARGED: &str = "hierarchy, enlarged";
-const STOPPED: &str = "hierarchy, stopped early";
-
-/// Series of every figure: label and technique.
-const SEARCHES: [(&str, &str); 5] = [
-    (LINEAR, "linear"),
-    (WARM, "linear(start=previous)"),
-    (RAW, "ray-hierarchy"),
-    (ENLARGED, "ray-hierarchy(repair=enlarge)"),
-    (STOPPED, "ray-hierarchy(repair=stop)"),
-];
-
-/// The scenes of Fig. 4.3, by letter; the first two with their number of vertices.
-const CASES: [(&str, &str); 4] = [
-    ("a: 20 000", "sphere-objects-20k"),
-    ("b: 1 000", "sphere-objects-1k"),
-    ("c: holes", "sphere-grid-3k"),
-    ("d: early stop", "sphere-grid-1k"),
-];
-
-/// The built-in family's sizes: the name's ending, and the vertices of its grid.
-const SIZES: [(&str, u32); 7] = [
-    ("100", 100),
-    ("300", 289),
-    ("1k", 1_024),
-    ("3k", 3_025),
-    ("10k", 10_000),
-    ("30k", 29_929),
-    ("100k", 99_856),
-];
-
-/// Scenes with a slow camera path.
-const MOVING: [(&str, &str); 3] = [
-    ("sphere, points", "prototype-sphere"),
-    ("sphere, objects", "sphere-objects-1k"),
-    ("ellipsoid, objects", "ellipsoid"),
-];
-
-/// Frames of the path that are followed.
-const FRAMES: u32 = 12;
-
-const SEARCH_MS: &str = "time_ms.passes.search";
-const FRAME_MS: &str = "time_ms.frame.median";
-const MOVING_MS: &str = "temporal.frame_ms";
-const STILL_MS: &str = "temporal.still_ms";
-const EVALUATIONS: &str = "work.evaluations";
-const NODE_TESTS: &str = "work.node_tests";
-const STEPS: &str = "work.steps";
-const OFFSET: &str = "vertices.offset_px.mean";
-const OFFSET_P95: &str = "vertices.offset_px.p95";
-const JITTER_MEAN: &str = "temporal.jitter_px.mean";
-const JITTER_MAX: &str = "temporal.jitter_px.max";
-const JUMPS: &str = "temporal.jumps";
 
 /// What came out, in sentences.
 type Analysis = fn(&Results<'_>) -> Vec<String>;
 
-/// On what the thesis measured.
-const THESIS: &str = "Core 2 Duo, GTX 260";
-
-fn figures(scene: Option<&str>) -> Vec<Figure> {
+fn figures(asked: &Asked<'_>) -> Vec<Figure> {
+    let scene = asked.scene;
     if let Some(scene) = scene {
         return vec![
             objects(&[(scene, scene)], Vec::new(), claims::scene),

@@ -7,9 +7,10 @@ use catoptric_reflect::{Output, Visit};
 use catoptric_scene::Scene;
 use glam::{IVec2, Vec2, Vec3};
 
-use crate::report::pictures::{FOLDER, slug};
-use crate::report::words::count;
-use crate::suites::{Picture, Studio};
+use crate::output::PICTURES as FOLDER;
+use crate::show::number::count;
+use crate::show::pictures::slug;
+use crate::suites::suite::{Picture, Studio};
 
 /// Scene of the pictures where the user names none.
 const SCENE: &str = "sphere-objects-1k";
@@ -25,11 +26,11 @@ const PATHS: [(&str, &str); 2] = [
 /// All pictures, under the first figure.
 pub fn make(studio: &Studio<'_>) -> anyhow::Result<Vec<Picture>> {
     let name = studio.scene.unwrap_or(SCENE);
-    let scene = catoptric_scene::open(name, &crate::setup::load_options(studio.common))?;
+    let scene = catoptric_scene::open(name, &crate::run::load::load_options(studio.common))?;
     let mut outputs = Vec::new();
     for (technique, _) in PATHS {
-        let spec = crate::setup::parse(technique)?;
-        match crate::pipeline::render(&studio.setup.gpu, &spec, &scene) {
+        let spec = crate::run::load::parse(technique)?;
+        match crate::run::render::render(&studio.setup.gpu, &spec, &scene) {
             Ok(rendered) => outputs.push(rendered.output),
             // The rows of this technique say why.
             Err(_) => return Ok(Vec::new()),
@@ -38,10 +39,10 @@ pub fn make(studio: &Studio<'_>) -> anyhow::Result<Vec<Picture>> {
     let mut pictures = match studio.scene {
         Some(_) => maps(studio, &scene, &outputs[0])?,
         None => {
-            let options = crate::setup::load_options(studio.common);
+            let options = crate::run::load::load_options(studio.common);
             let scene = catoptric_scene::open(SCENE_OF_MAPS, &options)?;
-            let spec = crate::setup::parse(PATHS[0].0)?;
-            match crate::pipeline::render(&studio.setup.gpu, &spec, &scene) {
+            let spec = crate::run::load::parse(PATHS[0].0)?;
+            match crate::run::render::render(&studio.setup.gpu, &spec, &scene) {
                 Ok(rendered) => maps(studio, &scene, &rendered.output)?,
                 Err(_) => Vec::new(),
             }
@@ -149,11 +150,11 @@ fn path(
     result: &VertexResult,
     mirror: usize,
 ) -> anyhow::Result<Picture> {
-    let spec = crate::setup::parse(technique)?;
+    let spec = crate::run::load::parse(technique)?;
     // Objects have the ids from 1 on.
     let object = &scene.objects[result.object as usize - 1];
     let vertex = object.mesh.positions[result.vertex as usize];
-    let size = crate::pipeline::size(scene);
+    let size = crate::run::load::size(scene);
     let gpu = &studio.setup.gpu;
     let visits = catoptric_reflect::path(gpu, &spec, scene, size, vertex, mirror)?;
     let dim = |color: &Vec3| srgb8_from_linear(*color).map(|channel| channel / 2);

@@ -1,11 +1,13 @@
 //! A mirror of flat facets, of which CESCG shows a picture.
 
-use crate::report::words::{percent, short};
+use crate::show::number::{percent, short};
 
-use super::super::{Ask, Figure, Point, Quantity, Quote, Results};
-use super::{
+use super::data::{
     AGREEMENT, ANGLE, BY_EYE, FRAME_MS, NONE, THRESHOLD, adaptive, full, named, quantities, series,
 };
+use crate::suites::figure::{Figure, Quantity, Quote};
+use crate::suites::results::Results;
+use crate::suites::series::{Ask, Point};
 
 /// The scene's fine floor, split twice, is 180 000 triangles.
 const SIZE: [u32; 2] = [320, 240];

@@ -4,11 +4,13 @@ use anyhow::Context;
 use catoptric_frame::write_png;
 use catoptric_scene::Scene;
 
-use crate::report::pictures::{FOLDER, geometry, slug};
-use crate::setup::load_options;
+use crate::output::PICTURES as FOLDER;
+use crate::run::load::load_options;
+use crate::show::pictures::slug;
+use crate::suites::pictures::geometry;
 
-use super::super::{Picture, Studio};
-use super::{CRACK, SQUARE, TABLE, THRESHOLD, adaptive, full};
+use super::data::{CRACK, SQUARE, TABLE, THRESHOLD, adaptive, full};
+use crate::suites::suite::{Picture, Studio};
 
 /// All pictures: figure, scene, technique, and what became of the triangles.
 pub fn make(studio: &Studio<'_>) -> anyhow::Result<Vec<Picture>> {

@@ -1,14 +1,16 @@
 //! The thesis' figures: a square of two triangles, and two triangles that crack.
 
-use crate::plot::Axis;
-use crate::report::words::{count, short};
+use crate::show::number::{count, short};
+use crate::show::plot::Axis;
 
-use super::super::{Ask, Figure, Point, Quantity, Quote, Results};
-use super::{
+use super::data::{
     ADAPTIVE, AGREEMENT, ANGLE, BY_EYE, CRACK_PIXELS, DRAWN, EDGES, FLOOR, FRAME_MS, FULL,
     JUNCTIONS, NONE, PAPERS, SEARCHED, THRESHOLD, WHOLE_PIXELS, adaptive, full, named, quantities,
     series, spared, three_modes, verdict,
 };
+use crate::suites::figure::{Figure, Quantity, Quote};
+use crate::suites::results::Results;
+use crate::suites::series::{Ask, Point};
 
 /// Level limits: those of Fig. 6.3, and on to triangles smaller than pixels.
 const LEVELS: u32 = 8;

@@ -1,15 +1,17 @@
 //! CESCG's figures: a scene of coarse and of fine models.
 
-use crate::plot::Axis;
-use crate::report::words::{count, short};
+use crate::show::number::{count, short};
+use crate::show::plot::Axis;
 
-use super::super::{Ask, Figure, Point, Quantity, Quote, Results};
-use super::square::floor;
-use super::{
+use super::data::{
     ADAPTIVE, AGREEMENT, ANGLE, BY_EYE, CRACK_PIXELS, DRAWN, EDGES, FLOOR, FRAME_MS, FULL, NONE,
     PAPERS, SEARCHED, TABLE, THRESHOLD, WHOLE_PIXELS, adaptive, full, named, quantities, series,
     spared, three_modes, verdict,
 };
+use super::square::floor;
+use crate::suites::figure::{Figure, Quantity, Quote};
+use crate::suites::results::Results;
+use crate::suites::series::{Ask, Point};
 
 /// The size at which full tessellation to level 4 (2.5 million triangles) fits the suite's time.
 const SIZE: [u32; 2] = [320, 240];

@@ -1,0 +1,67 @@
+//! The command line: a file a verb, and what each is told.
+
+mod args;
+mod bench;
+mod check;
+mod compare;
+mod diff;
+mod doctor;
+mod export;
+mod list;
+mod picture;
+mod reference;
+mod render;
+mod report;
+mod summary;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use crate::exit::{self, Outcome, bad_input};
+use crate::options::Common;
+
+use self::args::{Cli, Command};
+
+/// The program: reads the command line, does what it says, and answers with an exit code.
+pub fn main() -> ExitCode {
+    match run(Cli::parse()) {
+        Ok(outcome) => outcome.into(),
+        Err(error) => {
+            eprintln!("catoptric: {error:#}");
+            ExitCode::from(exit::code(&error))
+        }
+    }
+}
+
+fn run(Cli { command, common }: Cli) -> anyhow::Result<Outcome> {
+    let common = settled(common)?;
+    match command {
+        Command::List(args) => list::run(&args, &common),
+        Command::Reference(args) => reference::run(&args, &common),
+        Command::Render(args) => render::run(&args, &common),
+        Command::Compare(args) => compare::run(&args, &common),
+        Command::Bench(args) => bench::run(&args, &common),
+        Command::Report(args) => report::run(&args, &common),
+        Command::Diff(args) => diff::run(&args, &common),
+        Command::Summary(args) => summary::run(&args, &common),
+        Command::Export(args) => export::run(&args, &common),
+        Command::Check(args) => check::run(&args, &common),
+        Command::Doctor => doctor::run(&common),
+    }
+}
+
+/// The common options, checked as far as every command can: an empty `--models` (or variable) is
+/// none, any other must be a folder.
+fn settled(mut common: Common) -> anyhow::Result<Common> {
+    common.models = common
+        .models
+        .filter(|folder| !folder.as_os_str().is_empty());
+    match &common.models {
+        Some(folder) if !folder.is_dir() => Err(bad_input(format!(
+            "--models (or the variable CATOPTRIC_MODELS): no folder {}",
+            folder.display()
+        ))),
+        _ => Ok(common),
+    }
+}

@@ -1,0 +1,17 @@
+//! What was measured: rows, their file, their schema, and what is asked of their numbers.
+//!
+//! The bottom of the house: nothing here knows how a number is measured or shown.
+
+pub mod against;
+pub mod file;
+pub mod gate;
+pub mod path;
+pub mod row;
+pub mod schema;
+#[cfg(test)]
+pub(crate) mod tests;
+
+pub use file::{read, write};
+pub use row::{
+    Adapter, AgainstFull, Meta, Raw, Record, SCHEMA_VERSION, Status, Steadiness, Times, Wall,
+};

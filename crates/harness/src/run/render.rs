@@ -1,0 +1,62 @@
+//! Load → trace the reference → **render** → compare → time → record.
+
+use std::time::Instant;
+
+use catoptric_reflect::{DistanceLevel, Gpu, Output, Prepared, ReflectError, Spec, Support};
+use catoptric_scene::Scene;
+
+use crate::record::{Status, Steadiness};
+
+use super::load::size;
+
+/// A technique that stands ready, and its picture with all layers.
+pub struct Rendered<'g> {
+    pub(super) prepared: Prepared<'g>,
+    pub(super) prepare_ms: f64,
+    /// Over the frames of the scene's motion, once it has been followed there.
+    pub(super) temporal: Option<Steadiness>,
+    /// Picture, vertices, triangles and work.
+    pub output: Output,
+}
+
+impl Rendered<'_> {
+    /// The pyramid over the technique's cube maps of distance, if it has one.
+    pub fn distance_levels(&self) -> Option<Vec<DistanceLevel>> {
+        self.prepared.distance_levels()
+    }
+}
+
+/// Why a row has no numbers.
+pub type Blank = (Status, String);
+
+/// Prepares a technique and renders one frame with all layers: the first one, or the second where
+/// a frame helps to find the next, as the timed ones are.
+pub fn render<'g>(gpu: &'g Gpu, spec: &Spec, scene: &Scene) -> Result<Rendered<'g>, Blank> {
+    if let Support::No(reason) = catoptric_reflect::supports(spec, scene) {
+        return Err((Status::NotApplicable, reason));
+    }
+    let failed = |error: ReflectError| match error {
+        ReflectError::Adapter(_) => (Status::NotApplicable, one_line(&error)),
+        _ => (Status::Failed, one_line(&error)),
+    };
+    let start = Instant::now();
+    let mut prepared = catoptric_reflect::prepare(gpu, spec, scene, size(scene)).map_err(failed)?;
+    let prepare_ms = start.elapsed().as_secs_f64() * 1e3;
+    prepared.settle().map_err(failed)?;
+    let output = prepared.render().map_err(failed)?;
+    Ok(Rendered {
+        prepared,
+        prepare_ms,
+        temporal: None,
+        output,
+    })
+}
+
+/// An error and its causes in one line.
+pub fn one_line(error: &dyn std::error::Error) -> String {
+    let causes = std::iter::successors(Some(error), |error| error.source());
+    causes
+        .map(ToString::to_string)
+        .collect::<Vec<_>>()
+        .join(": ")
+}

@@ -1,0 +1,35 @@
+//! Load → **trace the reference** → render → compare → time → record.
+
+use catoptric_frame::{Frame, TrueVertex};
+use catoptric_metrics::Summary;
+use catoptric_reference::{NotAvailable, RenderOptions, Tracer, Truth as Bounces, true_vertices};
+use catoptric_scene::Scene;
+
+use super::load::size;
+
+/// What techniques are judged by.
+pub struct Truth {
+    /// Reflected rays see everything but mirrors.
+    pub first: Frame,
+    /// Mirrors are seen in mirrors.
+    pub full: Frame,
+    /// Exact reflection points, by mirror, object and vertex.
+    pub vertices: Result<Vec<TrueVertex>, NotAvailable>,
+    /// What answers in whole pixels are off by.
+    pub pixel_angle: Option<Summary>,
+}
+
+/// Traces both truths and finds the exact reflection points.
+pub fn trace_reference(scene: &Scene, bounces: u32) -> anyhow::Result<Truth> {
+    let tracer = Tracer::new(scene)?;
+    let first = tracer.render(&RenderOptions::new(size(scene), Bounces::FirstBounce));
+    let full = tracer.render(&RenderOptions::new(size(scene), Bounces::Full { bounces }));
+    let vertices = true_vertices(scene, &scene.camera.view(size(scene)));
+    let pixel_angle = catoptric_metrics::pixel_angle_deg(&first)?;
+    Ok(Truth {
+        first,
+        full,
+        vertices,
+        pixel_angle,
+    })
+}

@@ -1,0 +1,17 @@
+//! What is made of records and frames: tables, plots, sentences, pages and pictures. Nothing here
+//! measures.
+
+pub mod changes;
+mod diagrams;
+pub mod facts;
+pub mod html;
+pub mod number;
+pub mod page;
+pub mod pictures;
+pub mod plot;
+pub mod print;
+pub mod records;
+pub mod summary;
+pub mod table;
+mod views;
+pub mod words;

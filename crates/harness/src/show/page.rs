@@ -1,0 +1,133 @@
+//! The report's page: the record and the names of its pictures in, `index.html` out.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+use askama::Template;
+use catoptric_frame::write_whole;
+
+use crate::record::Record;
+
+use super::facts::{self, Fact};
+use super::views::{self, SUMMARY, Scene, SummaryRow};
+use super::{diagrams, pictures, words};
+
+/// Everything that the template shows.
+#[derive(Template)]
+#[template(path = "report.html")]
+struct Page<'r> {
+    /// How many rows of how many, where some are missing.
+    unfinished: Option<String>,
+    lead: Vec<String>,
+    noise_floor: Option<String>,
+    hero: Option<Hero<'r>>,
+    headings: &'static [(&'static str, &'static str)],
+    summary: Vec<SummaryRow>,
+    scatter: Option<String>,
+    scenes: &'r [Scene],
+    angle_labels: &'static [&'static str],
+    scale: &'static str,
+    coverage: Vec<Fact>,
+    software: Option<String>,
+    environment: Vec<Fact>,
+    command: String,
+    wall_clock: bool,
+}
+
+/// The first picture of the page.
+struct Hero<'r> {
+    scene: &'r Scene,
+    technique: &'r views::Technique,
+}
+
+/// Writes `index.html` into the report's folder. Of `wanted` rows some may not be measured yet.
+pub fn write(rows: &[Record], wanted: usize, folder: &Path) -> anyhow::Result<PathBuf> {
+    let path = folder.join("index.html");
+    write_whole(&path, render(rows, wanted)?.as_bytes())?;
+    Ok(path)
+}
+
+/// The page as text.
+fn render(rows: &[Record], wanted: usize) -> anyhow::Result<String> {
+    let techniques = views::techniques(rows);
+    let scenes = views::scenes(rows, &techniques)?;
+    let hero = scenes.iter().find_map(|scene| {
+        Some(Hero {
+            scene,
+            technique: scene.techniques.first()?,
+        })
+    });
+    let page = Page {
+        unfinished: (rows.len() < wanted).then(|| format!("{} of {wanted}", rows.len())),
+        lead: words::lead(rows, &techniques),
+        noise_floor: words::noise_floor(rows),
+        hero,
+        headings: &SUMMARY,
+        summary: views::summary(rows, &techniques),
+        scatter: diagrams::error_against_time(rows, &techniques).inline()?,
+        scenes: &scenes,
+        angle_labels: &pictures::ANGLE_LABELS,
+        scale: pictures::SCALE,
+        coverage: facts::coverage_legend(),
+        software: facts::software(rows),
+        environment: facts::environment(rows),
+        command: facts::command(rows),
+        wall_clock: rows.iter().any(|row| {
+            row.time_ms
+                .as_ref()
+                .is_some_and(|times| times.frame.is_none())
+        }),
+    };
+    page.render().context("filling the report's template")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::tests::{blank, measured};
+
+    #[test]
+    fn the_same_record_gives_the_same_bytes() {
+        let rows = [measured("a-scene", "linear"), blank("other", "linear")];
+        assert_eq!(render(&rows, 2).unwrap(), render(&rows, 2).unwrap());
+    }
+
+    #[test]
+    fn numbers_reasons_and_pictures_are_on_the_page() {
+        let rows = [
+            measured("a-scene", "linear(residual=cross)"),
+            blank("other", "linear"),
+        ];
+        let html = render(&rows, 2).unwrap();
+        assert!(!html.contains("Not finished"));
+        assert!(render(&rows, 5).unwrap().contains("2 of 5 measurements"));
+        for text in [
+            "98.1 %",
+            "no such model",
+            "pictures/a-scene-640x480/linear-residual-cross.angle.png",
+            "prefers-color-scheme",
+        ] {
+            assert!(html.contains(text), "{text}");
+        }
+        assert_eq!(
+            html.matches("<img ").count(),
+            html.matches(" alt=\"").count(),
+            "every picture has an alt text"
+        );
+        assert!(
+            !html.contains("http://") && !html.contains("https://"),
+            "nothing is fetched"
+        );
+    }
+
+    #[test]
+    fn names_cannot_break_out_of_the_page() {
+        let html = render(&[measured("<script>x</script>", "linear")], 1).unwrap();
+        assert!(!html.contains("<script>x"));
+    }
+
+    #[test]
+    fn an_empty_record_is_a_page() {
+        assert!(render(&[], 0).unwrap().contains("</html>"));
+    }
+}

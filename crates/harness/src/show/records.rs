@@ -1,0 +1,192 @@
+//! Records as tables: a short one for people, every metric for spreadsheets.
+
+use serde_json::Value;
+
+use crate::options::Format;
+use crate::record::path::{leaves, lookup};
+
+use super::number::significant;
+use super::print as stdout;
+use super::table::{Table, cell};
+
+/// Writes records as a table for people, or with every metric as CSV.
+pub fn print(rows: &[Value], format: Format) -> anyhow::Result<()> {
+    stdout::text(&text(rows, format))
+}
+
+/// Records as text, as [`print()`] writes them.
+pub fn text(rows: &[Value], format: Format) -> String {
+    match format {
+        Format::Json => format!("{:#}\n", Value::Array(rows.to_vec())),
+        Format::Csv => every_metric(rows).write(format),
+        Format::Table | Format::Markdown => summary(rows).write(format),
+    }
+}
+
+const PERCENT: f64 = 100.0;
+
+/// Heading, path and factor of the columns of the short table.
+const COLUMNS: [(&str, &str, f64); 11] = [
+    ("agree %", "object_agreement", PERCENT),
+    ("missing %", "coverage.missing", PERCENT),
+    ("extra %", "coverage.extra", PERCENT),
+    ("angle p50 °", "angular_error_deg.p50", 1.0),
+    ("angle p99 °", "angular_error_deg.p99", 1.0),
+    ("offset px", "vertices.offset_px.mean", 1.0),
+    ("failed", "vertices.failed", 1.0),
+    ("FLIP", "color.flip", 1.0),
+    ("evals", "work.evaluations", 1.0),
+    ("GPU ms", "time_ms.frame.median", 1.0),
+    ("wall ms", "time_ms.wall.median", 1.0),
+];
+
+/// The metrics that say most, and the reasons of rows without any.
+pub fn summary(rows: &[Value]) -> Table {
+    let headings = COLUMNS.iter().map(|(heading, ..)| *heading);
+    let mut table = Table::new(
+        ["scene", "technique"]
+            .into_iter()
+            .chain(headings)
+            .chain(["remark"]),
+    );
+    for row in rows {
+        let mut cells = vec![cell(row.get("scene")), cell(row.get("technique"))];
+        cells.extend(
+            COLUMNS
+                .iter()
+                .map(|(_, path, factor)| match lookup(row, path) {
+                    Some(value) if value.is_f64() => {
+                        significant(value.as_f64().unwrap_or(f64::NAN) * factor)
+                    }
+                    value => cell(value),
+                }),
+        );
+        cells.push(remark(row));
+        table.row(cells);
+    }
+    if table
+        .rows
+        .iter()
+        .all(|row| row.last().is_some_and(String::is_empty))
+    {
+        table.heading.pop();
+        for row in &mut table.rows {
+            row.pop();
+        }
+    }
+    table
+}
+
+fn remark(row: &Value) -> String {
+    let notes = lookup(row, "meta.notes").and_then(Value::as_array);
+    let notes = notes
+        .into_iter()
+        .flatten()
+        .filter_map(Value::as_str)
+        .map(str::to_owned);
+    let status = row["status"].as_str().filter(|status| *status != "ok");
+    let status = status.map(|status| format!("{status}: {}", row["reason"].as_str().unwrap_or("")));
+    status
+        .into_iter()
+        .chain(notes)
+        .collect::<Vec<_>>()
+        .join("; ")
+}
+
+fn every_metric(rows: &[Value]) -> Table {
+    let flat: Vec<Vec<(String, Value)>> = rows.iter().map(leaves).collect();
+    let mut paths: Vec<String> = [
+        "scene",
+        "technique",
+        "resolution",
+        "truth",
+        "status",
+        "reason",
+    ]
+    .map(str::to_owned)
+    .to_vec();
+    // A row without numbers has `null` where others have an object: its path is not a column.
+    let objects: Vec<String> = flat
+        .iter()
+        .flatten()
+        .filter_map(|(path, _)| Some(path.rsplit_once('.')?.0.to_owned()))
+        .collect();
+    for (path, _) in flat.iter().flatten() {
+        let inner = objects
+            .iter()
+            .any(|object| object == path || object.starts_with(&format!("{path}.")));
+        if !inner && !paths.contains(path) {
+            paths.push(path.clone());
+        }
+    }
+    let mut table = Table::new(paths.iter().cloned());
+    for row in flat {
+        table.row(paths.iter().map(|path| {
+            match row
+                .iter()
+                .find(|(other, _)| other == path)
+                .map(|(_, value)| value)
+            {
+                Some(Value::Number(number)) => number.to_string(),
+                value => cell(value),
+            }
+        }));
+    }
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn every_metric_has_a_column_and_null_objects_have_none() {
+        let rows = [
+            json!({ "scene": "a", "technique": "t", "color": { "mae": 0.5 }, "work": null }),
+            json!({ "scene": "b", "technique": "t", "color": null, "work": null }),
+        ];
+        let table = every_metric(&rows);
+        assert!(table.heading.contains(&"color.mae".to_owned()));
+        assert!(!table.heading.contains(&"color".to_owned()));
+        assert_eq!(
+            table.rows[0][table
+                .heading
+                .iter()
+                .position(|name| name == "color.mae")
+                .unwrap()],
+            "0.5"
+        );
+    }
+
+    #[test]
+    fn the_short_table_reads_well() {
+        use crate::record::tests::{blank, measured};
+        let rows = [
+            measured("sphere-table", "linear"),
+            blank("teapot-ball", "linear(residual=cross)"),
+        ];
+        let rows: Vec<Value> = rows.iter().map(crate::record::Record::to_value).collect();
+        insta::assert_snapshot!(summary(&rows).write(Format::Table), @"
+        scene         technique               agree %  missing %  extra %  angle p50 °  angle p99 °  offset px  failed     FLIP  evals  GPU ms  wall ms  remark
+        sphere-table  linear                    98.10      1.100        0       0.2500        2.000     0.5000       0  0.05000  400.5   5.000    6.000
+        teapot-ball   linear(residual=cross)        –          –        –            –            –          –       –        –      –       –        –  not-applicable: no such model
+        ");
+    }
+
+    #[test]
+    fn the_remark_column_is_there_when_needed() {
+        let fine =
+            json!({ "scene": "a", "technique": "t", "status": "ok", "object_agreement": 0.981 });
+        let table = summary(std::slice::from_ref(&fine));
+        assert!(!table.heading.contains(&"remark".to_owned()));
+        assert_eq!(table.rows[0][2], "98.10");
+        let failed =
+            json!({ "scene": "a", "technique": "t", "status": "failed", "reason": "lost" });
+        assert_eq!(
+            summary(&[fine, failed]).rows[1].last().unwrap(),
+            "failed: lost"
+        );
+    }
+}

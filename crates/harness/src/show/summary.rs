@@ -1,0 +1,89 @@
+//! The short table of a recorded run, for a text such as the README.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::options::Format;
+use crate::record::path::lookup;
+
+use super::records;
+use super::table::cell;
+
+/// Columns of the table: those that fit on a page.
+const COLUMNS: [&str; 7] = [
+    "agree %",
+    "missing %",
+    "angle p50 °",
+    "offset px",
+    "FLIP",
+    "evals",
+    "GPU ms",
+];
+
+/// The table and where it comes from.
+pub fn markdown(rows: &[Value], path: &Path) -> String {
+    let first = |path: &str| {
+        let found = rows.first().and_then(|row| lookup(row, path));
+        cell(found)
+    };
+    let software = rows
+        .iter()
+        .any(|row| lookup(row, "adapter.software") == Some(&true.into()));
+    let note = if software {
+        " (a CPU playing the GPU: its times compare techniques with each other, not with a graphics card)"
+    } else {
+        ""
+    };
+    format!(
+        "Recorded {} at revision {} on {}{note} by\n`{}`:\n\n{}",
+        first("meta.date").split('T').next().unwrap_or_default(),
+        first("meta.revision"),
+        first("adapter.name"),
+        first("meta.command"),
+        table(rows, Format::Markdown),
+    ) + &format!(
+        "\nEverything measured is in [record.json]({}).\n",
+        path.display()
+    )
+}
+
+/// The table alone.
+pub fn table(rows: &[Value], format: Format) -> String {
+    let mut table = records::summary(rows);
+    let wanted = |heading: &String| {
+        ["scene", "technique"].contains(&heading.as_str()) || COLUMNS.contains(&heading.as_str())
+    };
+    let keep: Vec<bool> = table.heading.iter().map(wanted).collect();
+    let kept = |cells: &mut Vec<String>| {
+        let mut places = keep.iter();
+        cells.retain(|_| places.next() == Some(&true));
+    };
+    kept(&mut table.heading);
+    table.rows.iter_mut().for_each(kept);
+    table.write(format)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::Record;
+    use crate::record::tests::{blank, measured};
+
+    #[test]
+    fn the_summary_says_where_it_comes_from() {
+        let rows = [measured("a", "linear"), blank("b", "linear")];
+        let rows: Vec<Value> = rows.iter().map(Record::to_value).collect();
+        let text = markdown(&rows, Path::new("results/x/record.json"));
+        for part in [
+            "2026-01-02",
+            "0123456789ab",
+            "test adapter",
+            "98.10",
+            "(results/x/record.json)",
+        ] {
+            assert!(text.contains(part), "{part}: {text}");
+        }
+        assert!(!text.contains("remark"), "{text}");
+    }
+}

@@ -1,0 +1,198 @@
+//! Rows of text as aligned columns, CSV or Markdown.
+
+use serde_json::Value;
+
+use crate::options::Format;
+
+use super::number::significant;
+
+/// A heading and rows of equally many cells.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Table {
+    /// Column headings.
+    pub heading: Vec<String>,
+    /// One a row, as long as the heading.
+    pub rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    /// An empty table with these columns.
+    pub fn new(heading: impl IntoIterator<Item = impl Into<String>>) -> Self {
+        Self {
+            heading: heading.into_iter().map(Into::into).collect(),
+            rows: Vec::new(),
+        }
+    }
+
+    /// Appends a row.
+    pub fn row(&mut self, cells: impl IntoIterator<Item = impl Into<String>>) {
+        self.rows.push(cells.into_iter().map(Into::into).collect());
+    }
+
+    /// The table as text; [`Format::Json`] has its own path and is written as aligned columns.
+    pub fn write(&self, format: Format) -> String {
+        match format {
+            Format::Table | Format::Json => self.aligned(),
+            Format::Csv => self.csv(),
+            Format::Markdown => self.markdown(),
+        }
+    }
+
+    fn widths(&self) -> Vec<usize> {
+        let lines = || std::iter::once(&self.heading).chain(&self.rows);
+        (0..self.heading.len())
+            .map(|column| {
+                lines()
+                    .map(|line| line[column].chars().count())
+                    .max()
+                    .unwrap_or(0)
+            })
+            .collect()
+    }
+
+    /// Columns of numbers are aligned at the right.
+    fn numeric(&self) -> Vec<bool> {
+        let number =
+            |cell: &str| cell == "–" || cell.trim_end_matches('%').trim().parse::<f64>().is_ok();
+        (0..self.heading.len())
+            .map(|column| !self.rows.is_empty() && self.rows.iter().all(|row| number(&row[column])))
+            .collect()
+    }
+
+    fn aligned(&self) -> String {
+        let (widths, numeric) = (self.widths(), self.numeric());
+        let mut text = String::new();
+        for line in std::iter::once(&self.heading).chain(&self.rows) {
+            let cells: Vec<String> = line
+                .iter()
+                .enumerate()
+                .map(|(column, cell)| pad(cell, widths[column], numeric[column]))
+                .collect();
+            text.push_str(cells.join("  ").trim_end());
+            text.push('\n');
+        }
+        text
+    }
+
+    fn csv(&self) -> String {
+        let mut text = String::new();
+        for line in std::iter::once(&self.heading).chain(&self.rows) {
+            let cells: Vec<String> = line.iter().map(|cell| csv_cell(cell)).collect();
+            text.push_str(&cells.join(","));
+            text.push('\n');
+        }
+        text
+    }
+
+    fn markdown(&self) -> String {
+        let (widths, numeric) = (self.widths(), self.numeric());
+        let mut text = String::new();
+        let mut line = |cells: &[String]| {
+            text.push_str("| ");
+            text.push_str(&cells.join(" | "));
+            text.push_str(" |\n");
+        };
+        let padded = |cells: &[String]| -> Vec<String> {
+            let escaped = cells.iter().map(|cell| cell.replace('|', "\\|"));
+            escaped
+                .enumerate()
+                .map(|(column, cell)| pad(&cell, widths[column], numeric[column]))
+                .collect()
+        };
+        line(&padded(&self.heading));
+        let rule = widths.iter().zip(&numeric).map(|(width, numeric)| {
+            let dashes = "-".repeat(width.saturating_sub(usize::from(*numeric)).max(2));
+            if *numeric {
+                format!("{dashes}:")
+            } else {
+                dashes
+            }
+        });
+        line(&rule.collect::<Vec<_>>());
+        for row in &self.rows {
+            line(&padded(row));
+        }
+        text
+    }
+}
+
+fn pad(cell: &str, width: usize, right: bool) -> String {
+    if right {
+        format!("{cell:>width$}")
+    } else {
+        format!("{cell:<width$}")
+    }
+}
+
+fn csv_cell(cell: &str) -> String {
+    if cell == "–" {
+        String::new()
+    } else if cell.contains([',', '"', '\n']) {
+        format!("\"{}\"", cell.replace('"', "\"\""))
+    } else {
+        cell.to_owned()
+    }
+}
+
+/// A value as a cell of a table.
+pub fn cell(value: Option<&Value>) -> String {
+    match value {
+        None | Some(Value::Null) => "–".to_owned(),
+        Some(Value::Bool(flag)) => if *flag { "yes" } else { "no" }.to_owned(),
+        Some(Value::String(text)) => text.clone(),
+        Some(Value::Array(items)) => items
+            .iter()
+            .map(|item| cell(Some(item)))
+            .collect::<Vec<_>>()
+            .join(" "),
+        Some(Value::Number(number)) if number.is_f64() => {
+            significant(number.as_f64().unwrap_or(f64::NAN))
+        }
+        Some(other) => other.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table() -> Table {
+        let mut table = Table::new(["name", "px"]);
+        table.row(["linear(a=1,b=2)", "0.38"]);
+        table.row(["x|y", "–"]);
+        table
+    }
+
+    #[test]
+    fn aligned() {
+        let lines = [
+            "name               px",
+            "linear(a=1,b=2)  0.38",
+            "x|y                 –",
+        ];
+        assert_eq!(
+            table().write(Format::Table),
+            lines.map(|line| line.to_owned() + "\n").concat()
+        );
+    }
+
+    #[test]
+    fn csv_quotes_and_empties() {
+        assert_eq!(
+            table().write(Format::Csv),
+            "name,px\n\"linear(a=1,b=2)\",0.38\nx|y,\n"
+        );
+    }
+
+    #[test]
+    fn markdown_escapes_bars() {
+        let text = table().write(Format::Markdown);
+        assert!(text.contains("| x\\|y"), "{text}");
+        assert!(
+            text.lines()
+                .nth(1)
+                .is_some_and(|rule| rule.ends_with("---: |")),
+            "{text}"
+        );
+    }
+}

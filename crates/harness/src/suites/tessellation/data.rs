@@ -1,0 +1,112 @@
+//! What the figures share: scenes, techniques, numbers of the record, and what is said of them.
+
+use crate::show::number::{count, short};
+use crate::show::plot::{Axis, Scale};
+use crate::suites::figure::{Guide, Quantity};
+use crate::suites::results::Results;
+use crate::suites::series::{Point, Series};
+
+pub const FRAME_MS: &str = "time_ms.frame.median";
+pub const AGREEMENT: &str = "object_agreement";
+pub const ANGLE: &str = "angular_error_deg.p50";
+pub const EDGES: &str = "edge_offset_px.mean";
+pub const CRACK_PIXELS: &str = "coverage.crack_pixels";
+pub const JUNCTIONS: &str = "coverage.t_junctions";
+
+/// What whole-pixel answers are off by, from the truth alone.
+pub const FLOOR: &str = "pixel_angle_deg.p50";
+pub const WHOLE_PIXELS: Guide = Guide {
+    label: "whole pixels",
+    path: FLOOR,
+};
+pub const SEARCHED: &str = "vertices.searched";
+pub const DRAWN: &str = "triangles.drawn";
+
+/// The thesis' scene, two triangles that crack, CESCG's coarse and fine models, and a mirror of facets.
+pub const SQUARE: &str = "sphere-square";
+pub const CRACK: &str = "crack";
+pub const TABLE: &str = "sphere-table";
+pub const FACETS: &str = "faceted";
+
+/// The thesis' threshold.
+pub const THRESHOLD: &str = "0.001";
+
+/// On what both papers measured times.
+pub const PAPERS: &str = "Core 2 Duo, GTX 260";
+
+/// How both papers judged pictures.
+pub const BY_EYE: &str = "judged by eye";
+pub const NONE: &str = "none";
+pub const FULL: &str = "full";
+pub const ADAPTIVE: &str = "adaptive";
+
+pub fn full(level: u32) -> String {
+    format!("linear+full(level={level})")
+}
+
+pub fn adaptive(level: u32, threshold: &str) -> String {
+    format!("linear+adaptive(level={level},threshold={threshold})")
+}
+
+/// Points at 0, 1, 2, …, one for each technique.
+pub fn series(label: &str, points: impl IntoIterator<Item = Point>) -> Series {
+    Series {
+        label: label.to_owned(),
+        points: points.into_iter().collect(),
+    }
+}
+
+/// None, full and adaptive against the level limit.
+pub fn three_modes(levels: u32, point: impl Fn(f64, String) -> Point) -> Vec<Series> {
+    let points = |technique: &dyn Fn(u32) -> String| -> Vec<Point> {
+        let at = |level: u32| point(f64::from(level), technique(level));
+        (0..=levels).map(at).collect()
+    };
+    vec![
+        series(NONE, points(&|_| "linear".to_owned())),
+        series(FULL, points(&full)),
+        series(ADAPTIVE, points(&|level| adaptive(level, THRESHOLD))),
+    ]
+}
+
+pub fn accuracy() -> Vec<Quantity> {
+    vec![
+        Quantity::linear("right object (share of mirror pixels)", AGREEMENT),
+        Quantity::log("median angular error (degrees)", ANGLE),
+        Quantity::linear("mean offset of edges (px)", EDGES),
+    ]
+}
+
+pub fn quantities(first: impl IntoIterator<Item = Quantity>) -> Vec<Quantity> {
+    first.into_iter().chain(accuracy()).collect()
+}
+
+pub fn named(label: &str, names: &[&str]) -> Axis {
+    Axis {
+        label: label.to_owned(),
+        scale: Scale::Names(names.iter().map(|name| (*name).to_owned()).collect()),
+    }
+}
+
+/// What became of a paper's claim.
+pub fn verdict(holds: bool) -> &'static str {
+    if holds {
+        "holds here"
+    } else {
+        "does not hold here"
+    }
+}
+
+/// The share of full's triangles that adaptive does not make at the same limit.
+pub fn spared(results: &Results<'_>) -> Option<String> {
+    let (adaptive, full) = (results.last(ADAPTIVE)?, results.last(FULL)?);
+    let (adaptive, full) = (adaptive.triangles.as_ref()?, full.triangles.as_ref()?);
+    let limit = adaptive.by_level.len() - 1;
+    Some(format!(
+        "Allowed {limit} levels at a threshold of {THRESHOLD}, adaptive draws {} triangles where full draws \
+         {}: {} % are spared.",
+        count(adaptive.drawn),
+        count(full.drawn),
+        short(100.0 * (1.0 - adaptive.drawn as f64 / full.drawn as f64))
+    ))
+}

@@ -1,0 +1,48 @@
+//! `catoptric bench tessellation`: adaptive against full tessellation of the reflected geometry,
+//! Szabo 2013, chapter 5 and section 6.2, and Szabo CESCG, section 5.
+//!
+//! What the papers show as pictures and times stands here beside what they could not measure:
+//! error against a ray-traced truth, so that "almost no visible difference" becomes a number.
+//! The thesis' figures are in `square`, those of the other paper in `table` and `facets`.
+
+mod data;
+mod facets;
+mod geometry;
+mod square;
+mod table;
+
+use crate::suites::figure::Figure;
+use crate::suites::suite::{Asked, Budget, Layout, Suite};
+
+use self::data::{CRACK, FACETS, SQUARE};
+
+/// The suite.
+pub const SUITE: Suite = Suite {
+    name: "tessellation",
+    title: "Tessellation of the reflected geometry",
+    why: "Straight edges between reflection points are not the curves that the mirror shows. How \
+          far must triangles be split, what does it cost, and what does splitting only where an \
+          error asks for it save?",
+    figures,
+    pictures: Some(geometry::make),
+    timing: Budget::Whole(90.0),
+    resolution: None,
+    layout: Layout::Figures,
+};
+
+fn figures(asked: &Asked<'_>) -> Vec<Figure> {
+    let scene = asked.scene;
+    let square = scene.unwrap_or(SQUARE);
+    let table = table::Place::of(scene);
+    vec![
+        square::straight(square),
+        square::wireframes(square),
+        square::by_level(square),
+        square::visible_levels(square),
+        square::cracks(scene.unwrap_or(CRACK)),
+        table::coarse_and_fine(&table),
+        table::thresholds(&table),
+        table::counts(&table),
+        facets::facets(scene.unwrap_or(FACETS)),
+    ]
+}

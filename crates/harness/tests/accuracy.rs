@@ -4,7 +4,7 @@
 mod support;
 
 use serde_json::Value;
-use support::{catoptric, code, gpu_or_skip, json, stderr};
+use support::{gpu_or_skip, measured, number};
 
 const FOUR: &str = "linear";
 const EIGHT: &str = "linear(neighbours=8,residual=cross)";
@@ -15,17 +15,7 @@ const WHOLE_PIXEL: f64 = 0.3826;
 
 /// Rows of a scene at its own size by several techniques. Hardly anything is timed.
 fn rows(scene: &str, techniques: &[&str]) -> Vec<Value> {
-    let mut args = vec!["compare", scene, "--format", "json", "--quiet"];
-    args.extend(["--time-budget", "0.01", "-t"]);
-    args.extend(techniques);
-    let output = catoptric(&args);
-    assert_eq!(code(&output), 0, "{}", stderr(&output));
-    json(&output).as_array().cloned().unwrap_or_default()
-}
-
-fn number(row: &Value, pointer: &str) -> f64 {
-    let value = row.pointer(pointer).and_then(Value::as_f64);
-    value.unwrap_or_else(|| panic!("{pointer} of {row}"))
+    measured(&[scene], techniques, None, 0.01)
 }
 
 fn mean_offset(row: &Value) -> f64 {

@@ -5,7 +5,7 @@
 mod support;
 
 use serde_json::Value;
-use support::{catoptric, code, gpu_or_skip, json, stderr};
+use support::{gpu_or_skip, measured};
 
 /// A ball beside the eye, a floor under both and a wall to the left; squares of three units, so
 /// that those at the right edge of the picture go far behind the eye.
@@ -48,22 +48,7 @@ fn triangles_that_reach_behind_the_eye_are_clipped_where_their_images_are() {
     let scene = scene.to_str().expect("UTF-8");
     let in_space = "reflector-cubemap(iterations=40,hidden=extend,depth=virtual)";
     let on_screen = "reflector-cubemap(iterations=40,hidden=extend,depth=thesis)";
-    let output = catoptric(&[
-        "compare",
-        scene,
-        "-t",
-        in_space,
-        on_screen,
-        "--resolution",
-        "96x72",
-        "--time-budget",
-        "0.01",
-        "--format",
-        "json",
-        "--quiet",
-    ]);
-    assert_eq!(code(&output), 0, "{}", stderr(&output));
-    let rows = json(&output);
+    let rows = measured(&[scene], &[in_space, on_screen], Some([96, 72]), 0.01);
     let coverage = |row: usize, what: &str| {
         let share = rows[row]["coverage"][what].as_f64();
         share.unwrap_or_else(|| panic!("{}", Value::to_string(&rows[row])))

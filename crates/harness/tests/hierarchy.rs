@@ -3,7 +3,7 @@
 mod support;
 
 use serde_json::Value;
-use support::{gpu_or_skip, rows};
+use support::{gpu_or_skip, measured};
 
 /// How far a measured value may be from the expected one, as a share of it: the expected values
 /// come from an independent f64 program and other random vertices of the same distribution.
@@ -23,8 +23,8 @@ fn the_sphere_shows_the_published_flaws() {
     if !gpu_or_skip() {
         return;
     }
-    let rows = rows(
-        "prototype-sphere",
+    let rows = measured(
+        &["prototype-sphere"],
         &[
             "ray-hierarchy",
             "ray-hierarchy(repair=enlarge)",
@@ -32,6 +32,8 @@ fn the_sphere_shows_the_published_flaws() {
             "ray-hierarchy(repair=stop,stop=3)",
             "ray-hierarchy(repair=stop,stop=4)",
         ],
+        None,
+        0.1,
     );
     let [raw, enlarged, two, three, four] = rows.as_slice() else {
         panic!("{} rows", rows.len())

@@ -4,7 +4,7 @@
 mod support;
 
 use serde_json::Value;
-use support::{catoptric, code, gpu_or_skip, json, stderr};
+use support::{gpu_or_skip, measured, number};
 
 /// Of techniques that should be exact: rounding at the edges of objects, a pixel in a thousand.
 const EXACT: f64 = 0.999;
@@ -15,20 +15,7 @@ const TRACED: f64 = 0.95;
 const OPEN: f64 = 0.02;
 
 fn compare(scenes: &[&str], techniques: &[&str]) -> Vec<Value> {
-    let mut args = vec!["compare"];
-    args.extend(scenes);
-    args.push("-t");
-    args.extend(techniques);
-    args.extend(["--resolution", "96x72", "--time-budget", "0.05"]);
-    args.extend(["--format", "json", "--quiet"]);
-    let output = catoptric(&args);
-    assert_eq!(code(&output), 0, "{}", stderr(&output));
-    json(&output).as_array().cloned().unwrap_or_default()
-}
-
-fn number(row: &Value, pointer: &str) -> f64 {
-    let value = row.pointer(pointer).and_then(Value::as_f64);
-    value.unwrap_or_else(|| panic!("{pointer} of {row}"))
+    measured(scenes, techniques, Some([96, 72]), 0.05)
 }
 
 #[test]

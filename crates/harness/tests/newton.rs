@@ -2,7 +2,7 @@
 
 mod support;
 
-use support::{gpu_or_skip, rows};
+use support::{gpu_or_skip, measured};
 
 /// An f64 program converged for 99.5 % (ellipsoid) and more; here the rim is reached as well.
 const FAILED: f64 = 0.005;
@@ -19,7 +19,7 @@ fn answers_are_exact_to_a_hundredth_of_a_pixel() {
         return;
     }
     for scene in ["prototype-sphere", "prototype-ellipsoid"] {
-        let rows = rows(scene, &["newton"]);
+        let rows = measured(&[scene], &["newton"], None, 0.1);
         let number = |pointer: &str| rows[0].pointer(pointer).and_then(|value| value.as_f64());
         let number =
             |pointer: &str| number(pointer).unwrap_or_else(|| panic!("{pointer}: {rows:?}"));

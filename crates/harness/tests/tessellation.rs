@@ -3,16 +3,10 @@
 mod support;
 
 use serde_json::Value;
-use support::{catoptric, code, gpu_or_skip, json, stderr};
+use support::{gpu_or_skip, measured};
 
 fn compare(scene: &str, techniques: &[&str]) -> Vec<Value> {
-    let size = ["--resolution", "320x240", "--time-budget", "0.01"];
-    let named = techniques.iter().flat_map(|technique| ["-t", technique]);
-    let args = ["compare", scene, "--format", "json"];
-    let args = args.into_iter().chain(size).chain(named);
-    let output = catoptric(&args.collect::<Vec<_>>());
-    assert_eq!(code(&output), 0, "{}", stderr(&output));
-    json(&output).as_array().cloned().unwrap_or_default()
+    measured(&[scene], techniques, Some([320, 240]), 0.01)
 }
 
 #[test]

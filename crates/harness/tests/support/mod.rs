@@ -1,9 +1,13 @@
-//! Running the program, and looking at what it says.
+//! Measuring with the library, running the program, and looking at what it says.
 #![allow(dead_code, reason = "no test file needs all of it")]
 
 use std::path::Path;
 use std::process::{Command, Output};
+use std::time::Duration;
 
+use ::catoptric::options::Common;
+use ::catoptric::record::{Record, Status};
+use ::catoptric::run;
 use serde_json::Value;
 
 /// Small enough for a software adapter, large enough to show every object.
@@ -73,17 +77,33 @@ pub fn files(folder: &Path) -> Vec<String> {
         .collect()
 }
 
-/// Rows of a scene by several techniques, in its own size.
-pub fn rows(scene: &str, techniques: &[&str]) -> Vec<Value> {
-    let given = techniques.iter().flat_map(|technique| ["-t", technique]);
-    let args: Vec<&str> = ["compare", scene, "--format", "json", "--time-budget", "0.1"]
-        .into_iter()
-        .chain(given)
-        .collect();
-    let output = catoptric(&args);
-    assert_eq!(code(&output), 0, "{}", stderr(&output));
-    match json(&output) {
-        Value::Array(rows) => rows,
-        other => panic!("no array: {other}"),
+/// Rows of scenes by techniques as the library measures them, in pictures of `size` or of each
+/// scene's own, timed for so many seconds a scene. No row may have failed.
+pub fn measured(
+    scenes: &[&str],
+    techniques: &[&str],
+    size: Option<[u32; 2]>,
+    seconds: f64,
+) -> Vec<Value> {
+    let owned =
+        |names: &[&str]| -> Vec<String> { names.iter().map(|name| (*name).to_owned()).collect() };
+    let timing = Duration::from_secs_f64(seconds);
+    let wanted = run::product(&owned(scenes), &owned(techniques), timing, None);
+    let common = Common {
+        resolution: size,
+        quiet: true,
+        ..Common::default()
+    };
+    let setup = run::Setup::new(&wanted, &common).expect("scenes, techniques and an adapter");
+    let rows = run::measure(&setup, |_, _| Ok(())).expect("measurements");
+    for row in &rows {
+        assert_ne!(row.status, Status::Failed, "{:?}", row.reason);
     }
+    rows.iter().map(Record::to_value).collect()
+}
+
+/// A number of a row, by its JSON pointer.
+pub fn number(row: &Value, pointer: &str) -> f64 {
+    let value = row.pointer(pointer).and_then(Value::as_f64);
+    value.unwrap_or_else(|| panic!("{pointer} of {row}"))
 }

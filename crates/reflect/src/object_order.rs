@@ -3,15 +3,14 @@
 
 use catoptric_scene::Scene;
 
-use crate::ReflectError;
-use crate::gpu::Gpu;
-use crate::points::points_layout;
-use crate::raster::Raster;
-use crate::recorder::Recorder;
+use crate::error::ReflectError;
+use crate::gpu::{Gpu, Recorder};
 use crate::refine::{self, Refine};
 use crate::search::{self, Account, Search};
 use crate::spec::Spec;
 use crate::stage::Stage;
+use crate::stage::points::points_layout;
+use crate::stage::raster::Raster;
 use crate::technique::{Built, Output, Technique, Variant};
 
 /// A search with a refinement.

@@ -1,14 +1,10 @@
 //! What a technique is to the rest: it records frames and hands over what it drew and counted.
 
-use std::time::Instant;
-
 use catoptric_frame::{Frame, Traced, Triangles, VertexResult, Work};
 use catoptric_scene::Scene;
 
-use crate::ReflectError;
-use crate::gpu::Gpu;
-use crate::recorder::Recorder;
-use crate::timing::{FrameTime, Timer};
+use crate::error::ReflectError;
+use crate::gpu::{Gpu, Recorder};
 
 /// What a frame is rendered for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -95,77 +91,4 @@ pub struct Output {
     /// Pixel by pixel, what following the reflected rays took; `None` for techniques that do not
     /// go along them step by step.
     pub traced: Option<Traced>,
-}
-
-/// A technique that stands ready to render one scene.
-pub struct Prepared<'g> {
-    gpu: &'g Gpu,
-    technique: Box<dyn Technique>,
-    timer: Timer,
-}
-
-impl<'g> Prepared<'g> {
-    pub(crate) fn new(gpu: &'g Gpu, technique: Box<dyn Technique>) -> Self {
-        Self {
-            gpu,
-            technique,
-            timer: Timer::new(gpu),
-        }
-    }
-
-    /// Brings a technique that carries answers from frame to frame to where the second frame of a
-    /// still scene finds it; does nothing for others.
-    ///
-    /// # Errors
-    /// As [`Prepared::render`].
-    pub fn settle(&mut self) -> Result<(), ReflectError> {
-        if self.technique.carries_over() {
-            self.render()?;
-        }
-        Ok(())
-    }
-
-    /// Renders a frame with all layers and counts the work.
-    ///
-    /// # Errors
-    /// As when preparing, where something is prepared for each frame; the device's own errors are
-    /// bugs and panic.
-    pub fn render(&mut self) -> Result<Output, ReflectError> {
-        self.technique.begin_frame(self.gpu)?;
-        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        let mut unstamped = Timer::none();
-        let mut frame = Recorder::new(&mut encoder, &mut unstamped);
-        self.technique.record(&mut frame, Variant::AllLayers);
-        self.gpu.queue.submit([encoder.finish()]);
-        Ok(self.technique.output(self.gpu))
-    }
-
-    /// Renders a frame as an application would, colour and depth only, and times it.
-    ///
-    /// # Errors
-    /// As [`Prepared::render`].
-    pub fn time_frame(&mut self) -> Result<FrameTime, ReflectError> {
-        let start = Instant::now();
-        let built = self.technique.begin_frame(self.gpu)?;
-        let build_ms = (built == Built::OnTheCpu).then(|| start.elapsed().as_secs_f64() * 1e3);
-        let time = self.timer.time(self.gpu, |frame| {
-            self.technique.record(frame, Variant::Color);
-        });
-        Ok(FrameTime { build_ms, ..time })
-    }
-
-    /// The pyramid over the first mirror's cube maps of distance, from texels to a cell a face; `None`
-    /// where the technique has no such pyramid.
-    pub fn distance_levels(&self) -> Option<Vec<DistanceLevel>> {
-        self.technique.distance_levels(self.gpu)
-    }
-
-    /// Takes over what moved since the last frame: eye, object vertices, mirrors. Nothing is
-    /// prepared anew that the motion does not touch.
-    ///
-    /// # Errors
-    /// A scene with other objects, triangles or mirrors than the one prepared for.
-    pub fn update(&mut self, scene: &Scene) -> Result<(), ReflectError> {
-        self.technique.update(self.gpu, scene)
-    }
 }

@@ -2,15 +2,13 @@
 
 use catoptric_scene::{LoadOptions, Scene};
 
-use crate::gpu::{Gpu, Prefer};
-use crate::points::{Points, points_layout};
-use crate::recorder::Recorder;
+use crate::gpu::{Gpu, Prefer, Recorder};
 use crate::registry::Maker;
 use crate::search::{Account, Context, Search};
 use crate::spec::parse;
 use crate::stage::Stage;
+use crate::stage::points::{Points, points_layout};
 use crate::technique::Variant;
-use crate::timing::Timer;
 
 /// The software adapter; `None` means skip. Panics instead of skipping where
 /// `CATOPTRIC_REQUIRE_GPU=1` says that there must be one.
@@ -69,16 +67,14 @@ impl Searched {
     /// Runs the search once more.
     pub(crate) fn run(&mut self, gpu: &Gpu) {
         self.search.begin_frame(gpu);
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let mut unstamped = Timer::none();
-        let mut frame = Recorder::new(&mut encoder, &mut unstamped);
-        self.stage.begin(&mut frame, Variant::AllLayers);
-        self.search.record_build(&mut frame, &self.stage);
-        for (mirror, points) in self.batches.iter().enumerate() {
-            let variant = Variant::AllLayers;
-            self.search
-                .record_search(&mut frame, &self.stage, mirror, points, variant);
-        }
-        gpu.queue.submit([encoder.finish()]);
+        gpu.run(|frame| {
+            self.stage.begin(frame, Variant::AllLayers);
+            self.search.record_build(frame, &self.stage);
+            for (mirror, points) in self.batches.iter().enumerate() {
+                let variant = Variant::AllLayers;
+                self.search
+                    .record_search(frame, &self.stage, mirror, points, variant);
+            }
+        });
     }
 }

@@ -5,16 +5,13 @@ use catoptric_scene::{Scene, View};
 use encase::ShaderType;
 use glam::{DVec2, DVec3};
 
-use crate::ReflectError;
-use crate::data::{MirrorUniform, ViewUniform, beyond, diagonal};
-use crate::gpu::Gpu;
-use crate::recorder::{Begin, Recorder};
-use crate::resources::{
-    DEPTH, FLOAT4, RasterEntries, Slot, group, layout, module, raster_to, set_uniform,
-    storage_bytes, target, texture_array, uniform,
+use crate::error::ReflectError;
+use crate::gpu::{
+    Begin, DEPTH, FLOAT4, Gpu, RasterEntries, Recorder, Slot, group, layout, module, raster_to,
+    set_uniform, storage_bytes, target, texture_array, uniform,
 };
 use crate::stage::Stage;
-use crate::timing::Timer;
+use crate::stage::data::{MirrorUniform, ViewUniform, beyond, diagonal};
 
 /// Faces of a cube.
 pub(crate) const FACES: u32 = 6;
@@ -293,14 +290,6 @@ pub(crate) fn array_view(texture: &wgpu::Texture) -> wgpu::TextureView {
         dimension: Some(wgpu::TextureViewDimension::D2Array),
         ..Default::default()
     })
-}
-
-/// Draws maps now, outside any frame.
-pub(crate) fn draw_now(gpu: &Gpu, record: impl FnOnce(&mut Recorder<'_>)) {
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    let mut unstamped = Timer::none();
-    record(&mut Recorder::new(&mut encoder, &mut unstamped));
-    gpu.queue.submit([encoder.finish()]);
 }
 
 fn maps_uniform(scene: &Scene, wanted: &Wanted) -> MapsUniform {

@@ -11,9 +11,8 @@ pub(crate) mod ray_trace;
 use catoptric_frame::{Traced, Work};
 use catoptric_scene::Scene;
 
-use crate::ReflectError;
-use crate::gpu::Gpu;
-use crate::recorder::{Begin, Recorder};
+use crate::error::ReflectError;
+use crate::gpu::{Begin, Gpu, Recorder};
 use crate::spec::{Options, Spec};
 use crate::stage::Stage;
 use crate::technique::{Built, DistanceLevel, Output, Technique, Variant};

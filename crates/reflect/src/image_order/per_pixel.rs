@@ -1,9 +1,7 @@
 //! Full-screen passes: one fragment a pixel, once for each mirror. Their shaders read the view (group
 //! 0), the mirror's G-buffer (group 1) and what is the pass's own (group 3).
 
-use crate::gpu::Gpu;
-use crate::recorder::{Begin, Recorder};
-use crate::resources::{RasterTargets, raster};
+use crate::gpu::{Begin, Gpu, RasterTargets, Recorder, raster};
 use crate::stage::Stage;
 use crate::technique::Variant;
 

@@ -11,13 +11,12 @@ pub(crate) mod tessellation;
 use catoptric_frame::{Triangles, VertexResult};
 use catoptric_scene::Scene;
 
-use crate::ReflectError;
-use crate::gpu::Gpu;
-use crate::points::Efforts;
-use crate::recorder::Recorder;
+use crate::error::ReflectError;
+use crate::gpu::{Gpu, Recorder};
 use crate::search::Search;
 use crate::spec::{Options, Spec};
 use crate::stage::Stage;
+use crate::stage::points::Efforts;
 use crate::technique::Variant;
 
 /// A refinement that stands ready for one scene and image size.

@@ -3,11 +3,10 @@
 use catoptric_frame::VertexResult;
 
 use super::Context;
-use crate::gpu::Gpu;
-use crate::points::{Efforts, Points};
-use crate::recorder::Recorder;
+use crate::gpu::{Gpu, Recorder};
 use crate::search::Search;
 use crate::stage::Stage;
+use crate::stage::points::{Efforts, Points};
 use crate::technique::Variant;
 
 /// One batch a mirror: all vertices of all objects.

@@ -5,17 +5,16 @@
 
 pub(crate) mod linear;
 pub(crate) mod newton;
+pub(crate) mod path;
 pub(crate) mod ray_hierarchy;
 pub(crate) mod reflector_cubemap;
 mod start;
 
-use crate::ReflectError;
-use crate::gpu::Gpu;
-use crate::points::Points;
-use crate::recorder::Recorder;
-use crate::resources::{compute, module};
+use crate::error::ReflectError;
+use crate::gpu::{Gpu, Recorder, compute, module};
 use crate::spec::Options;
 use crate::stage::Stage;
+use crate::stage::points::Points;
 use crate::technique::Variant;
 
 /// A search that stands ready for one scene and image size.

@@ -5,13 +5,13 @@ use catoptric_scene::{Mirror, View};
 use glam::{DVec2, Vec2};
 
 use super::{Context, Pipelines, Search};
-use crate::ReflectError;
-use crate::gbuffer::{GBuffer, MirrorsAlone};
-use crate::gpu::Gpu;
-use crate::points::Points;
-use crate::recorder::Recorder;
-use crate::resources::{Slot, compute, group, layout, module, set_uniform, storage_bytes, uniform};
+use crate::error::ReflectError;
+use crate::gpu::{
+    Gpu, Recorder, Slot, compute, group, layout, module, set_uniform, storage_bytes, uniform,
+};
 use crate::stage::Stage;
+use crate::stage::gbuffer::{GBuffer, MirrorsAlone};
+use crate::stage::points::Points;
 use crate::technique::Variant;
 
 /// Side of the pass's workgroups, in texels.

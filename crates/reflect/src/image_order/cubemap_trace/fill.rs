@@ -1,12 +1,10 @@
 //! Unresolved pixels filled in passes after tracing: from their neighbours, or by the ray tracer.
 
-use crate::ReflectError;
-use crate::gpu::Gpu;
+use crate::error::ReflectError;
+use crate::gpu::{FLOAT4, Gpu, Recorder, Slot, group, layout, module, target, view};
 use crate::image_order::ImageOrder;
 use crate::image_order::per_pixel::PerPixel;
 use crate::image_order::ray_trace::RayTrace;
-use crate::recorder::Recorder;
-use crate::resources::{FLOAT4, Slot, group, layout, module, target, view};
 use crate::stage::Stage;
 use crate::technique::Variant;
 
@@ -15,7 +13,7 @@ use crate::technique::Variant;
 pub(crate) struct Fill {
     /// What tracing draws: linear RGB, and 1 for a surface, 0 for the background, −1 unresolved.
     pub color: wgpu::Texture,
-    /// As [`crate::composite::Reflections::position`].
+    /// As [`crate::stage::composite::Reflections::position`].
     pub position: wgpu::Texture,
     pass: PerPixel,
     group: wgpu::BindGroup,

@@ -2,11 +2,9 @@
 //! unfinished. The lanes of a ray agree by a mask, put together by the ballots of subgroups where the
 //! adapter has these, else in workgroup memory.
 
-use crate::ReflectError;
-use crate::gpu::Gpu;
+use crate::error::ReflectError;
+use crate::gpu::{Begin, Gpu, Recorder, Slot, compute, group, layout, module, storage_zeros, view};
 use crate::image_order::draw_reflections;
-use crate::recorder::{Begin, Recorder};
-use crate::resources::{Slot, compute, group, layout, module, storage_zeros, view};
 use crate::spec::Options;
 use crate::stage::Stage;
 use crate::technique::Variant;

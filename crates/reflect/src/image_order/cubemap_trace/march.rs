@@ -2,11 +2,9 @@
 
 use catoptric_frame::{Image, Traced};
 
-use crate::ReflectError;
-use crate::gpu::Gpu;
+use crate::error::ReflectError;
+use crate::gpu::{Gpu, Recorder, module};
 use crate::image_order::per_pixel::{Pass, PerPixel};
-use crate::recorder::Recorder;
-use crate::resources::module;
 use crate::spec::Options;
 use crate::stage::Stage;
 use crate::technique::Variant;

@@ -25,14 +25,12 @@ use self::lanes::Lanes;
 use self::march::March;
 use self::pyramid::Pyramid;
 use super::ImageOrder;
-use super::cubemaps::{CubeMaps, Wanted, array_view, draw_now, maps_layout};
-use crate::ReflectError;
-use crate::data::diagonal;
-use crate::gpu::Gpu;
-use crate::recorder::Recorder;
-use crate::resources::{FLOAT4, Slot, group, target, uniform, view};
+use super::cubemaps::{CubeMaps, Wanted, array_view, maps_layout};
+use crate::error::ReflectError;
+use crate::gpu::{FLOAT4, Gpu, Recorder, Slot, group, target, uniform, view};
 use crate::spec::Options;
 use crate::stage::Stage;
+use crate::stage::data::diagonal;
 use crate::technique::{DistanceLevel, Variant};
 
 /// Twin of `Trace` in `shared/rays.wesl`.
@@ -150,7 +148,7 @@ pub(crate) fn make(
         effort,
         mirrors,
     };
-    draw_now(gpu, |frame| technique.record_maps(frame, stage));
+    gpu.run(|frame| technique.record_maps(frame, stage));
     Ok(Box::new(technique))
 }
 

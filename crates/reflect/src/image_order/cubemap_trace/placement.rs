@@ -11,10 +11,9 @@ use glam::DVec3;
 
 use super::march::{self, Effort};
 use super::{MORE, MirrorMaps, TraceUniform};
-use crate::ReflectError;
-use crate::gpu::Gpu;
-use crate::image_order::cubemaps::{Wanted, draw_now, maps_layout};
-use crate::resources::{FLOAT4, target, view};
+use crate::error::ReflectError;
+use crate::gpu::{FLOAT4, Gpu, target, view};
+use crate::image_order::cubemaps::{Wanted, maps_layout};
 use crate::spec::Options;
 use crate::stage::Stage;
 use crate::technique::Variant;
@@ -208,7 +207,7 @@ impl<'a> Trial<'a> {
             features.push("bounce");
         }
         let rays = Effort::new(gpu, &features, &stage, &own_layout)?;
-        draw_now(gpu, |frame| stage.begin(frame, Variant::Color));
+        gpu.run(|frame| stage.begin(frame, Variant::Color));
         Ok(Self {
             options,
             stage,
@@ -252,7 +251,7 @@ impl<'a> Trial<'a> {
                 maps.maps.set_centers(gpu, &self.stage, &[centers[round]]);
             }
             let groups: Vec<_> = maps.iter().map(|maps| &maps.group).collect();
-            draw_now(gpu, |frame| {
+            gpu.run(|frame| {
                 for maps in &maps {
                     maps.record(frame, &self.stage);
                 }

@@ -1,11 +1,9 @@
 //! The acceleration pyramid: least and greatest world distance of 2 × 2 cells, level by level
 //! (Číž 2017, section 3.6).
 
-use crate::ReflectError;
-use crate::gpu::Gpu;
+use crate::error::ReflectError;
+use crate::gpu::{Gpu, Recorder, Slot, compute, group, layout, module, texture_array};
 use crate::image_order::cubemaps::{CubeMaps, FACES};
-use crate::recorder::Recorder;
-use crate::resources::{Slot, compute, group, layout, module, texture_array};
 use crate::technique::DistanceLevel;
 
 /// Side of the pass's workgroups, in cells.

@@ -5,7 +5,7 @@ use catoptric_scene::Scene;
 
 use super::{MORE, MirrorMaps, trace_uniform};
 use crate::gpu::Gpu;
-use crate::image_order::cubemaps::{FACES, Wanted, draw_now, maps_layout};
+use crate::image_order::cubemaps::{FACES, Wanted, maps_layout};
 use crate::spec::parse;
 use crate::stage::Stage;
 use crate::technique::Output;
@@ -263,7 +263,7 @@ fn the_pyramid_is_that_of_the_cpu() {
     let layout = maps_layout(&gpu, "test", MORE);
     let maps = MirrorMaps::new(&gpu, true, &trace, &stage, wanted, &layout);
     let maps = maps.expect("fits the device");
-    draw_now(&gpu, |frame| maps.record(frame, &stage));
+    gpu.run(|frame| maps.record(frame, &stage));
 
     let far = maps.maps.far(&scene);
     let distances = gpu.read_layers(&maps.maps.distances, 0);

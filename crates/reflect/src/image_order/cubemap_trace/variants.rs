@@ -6,8 +6,8 @@ use std::collections::BTreeSet;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
 use super::march;
+use crate::gpu::shaders::tests::parsed;
 use crate::registry::Values;
-use crate::shaders::tests::parsed;
 use crate::spec::parse;
 
 /// Options that the shaders know, beside those that are one of some words.

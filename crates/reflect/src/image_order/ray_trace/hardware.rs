@@ -4,8 +4,7 @@
 use catoptric_scene::Scene;
 use wgpu::util::DeviceExt;
 
-use crate::gpu::Gpu;
-use crate::recorder::Recorder;
+use crate::gpu::{Gpu, Recorder};
 
 /// Bytes from one vertex to the next.
 const STRIDE: u64 = 12;

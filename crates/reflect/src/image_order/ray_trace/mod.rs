@@ -14,11 +14,8 @@ mod wide;
 use catoptric_frame::Work;
 
 use super::ImageOrder;
-use super::cubemaps::draw_now;
-use crate::ReflectError;
-use crate::gpu::Gpu;
-use crate::recorder::Recorder;
-use crate::resources::{Slot, compute, group, layout, module, storage_zeros, view};
+use crate::error::ReflectError;
+use crate::gpu::{Gpu, Recorder, Slot, compute, group, layout, module, storage_zeros, view};
 use crate::spec::Options;
 use crate::stage::Stage;
 use crate::technique::{Built, Variant};
@@ -59,7 +56,7 @@ pub(crate) fn make(
             return Err(ReflectError::Adapter("offers no ray queries"));
         }
         let structure = Hardware::new(gpu, &stage.world.scene);
-        draw_now(gpu, |frame| structure.build(frame));
+        gpu.run(|frame| structure.build(frame));
         Structure::Hardware(Box::new(structure))
     } else {
         Structure::Wide(Wide::new(gpu, &stage.world.scene)?)
@@ -143,7 +140,7 @@ impl RayTrace {
             }
         };
         if let Structure::Hardware(structure) = &self.structure {
-            draw_now(gpu, |frame| structure.build(frame));
+            gpu.run(|frame| structure.build(frame));
         }
         let (layout, left_open) = (&self.layout, self.left_open.as_ref());
         self.group = bind(gpu, layout, &self.structure, stage, &self.counts, left_open);
@@ -248,17 +245,14 @@ mod tests {
     use super::*;
     use crate::spec::parse;
     use crate::testing::{gpu_or_skip, scene};
-    use crate::timing::Timer;
 
     /// Object ids at the mirror's pixels.
     fn ids(gpu: &Gpu, technique: &RayTrace, stage: &Stage) -> Vec<u32> {
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let mut unstamped = Timer::none();
-        let mut frame = Recorder::new(&mut encoder, &mut unstamped);
-        stage.begin(&mut frame, Variant::AllLayers);
-        technique.record(&mut frame, stage, Variant::AllLayers);
-        stage.finish(&mut frame);
-        gpu.queue.submit([encoder.finish()]);
+        gpu.run(|frame| {
+            stage.begin(frame, Variant::AllLayers);
+            technique.record(frame, stage, Variant::AllLayers);
+            stage.finish(frame);
+        });
         let texels = gpu.read_texture(&stage.reflections.position);
         texels.iter().map(|texel| texel[3] as u32).collect()
     }

@@ -9,9 +9,8 @@ use obvhs::cwbvh::builder::build_cwbvh_from_tris;
 use obvhs::cwbvh::node::CwBvhNode;
 use obvhs::triangle::Triangle;
 
-use crate::ReflectError;
-use crate::gpu::Gpu;
-use crate::resources::{storage_bytes, storage_zeros};
+use crate::error::ReflectError;
+use crate::gpu::{Gpu, storage_bytes, storage_zeros};
 
 /// Levels that the shader's stack holds (`ray_trace.wesl`): one entry each at most.
 const STACK: usize = 48;

@@ -5,9 +5,8 @@ use encase::ShaderSize;
 use super::kernels::GROUP;
 use super::plan::Plan;
 use super::{Level, Totals};
-use crate::data::Piece;
-use crate::gpu::Gpu;
-use crate::resources::{storage_bytes, storage_zeros};
+use crate::gpu::{Gpu, storage_bytes, storage_zeros};
+use crate::stage::data::Piece;
 
 /// Distance between the [`Level`] records, bytes: where every device lets a binding begin.
 pub(super) const LEVEL_STRIDE: u64 = 256;

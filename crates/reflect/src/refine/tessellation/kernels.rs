@@ -1,10 +1,9 @@
 //! Kernels of the tessellation loop, with the layouts of what they are bound to.
 
 use super::Rule;
-use crate::ReflectError;
-use crate::gpu::Gpu;
+use crate::error::ReflectError;
+use crate::gpu::{Gpu, Slot, compute, group, layout, module};
 use crate::refine::Context;
-use crate::resources::{Slot, compute, group, layout, module};
 
 /// Threads of a workgroup, one a triangle.
 pub(super) const GROUP: u32 = 256;

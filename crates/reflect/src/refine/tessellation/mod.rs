@@ -13,6 +13,8 @@ mod passes;
 mod plan;
 #[cfg(test)]
 pub(crate) mod tests;
+#[cfg(test)]
+mod twin;
 
 use catoptric_frame::{Triangles, VertexResult};
 use catoptric_scene::Scene;
@@ -20,16 +22,14 @@ use encase::ShaderType;
 
 use super::originals::Originals;
 use super::{Context, Refine};
-use crate::ReflectError;
-use crate::data::{Found, Piece};
-use crate::gpu::Gpu;
-use crate::points::Efforts;
-use crate::recorder::Recorder;
+use crate::error::ReflectError;
+use crate::gpu::{Gpu, Recorder};
 use crate::search::Search;
 use crate::spec::Options;
 use crate::stage::Stage;
+use crate::stage::data::{Found, Piece};
+use crate::stage::points::Efforts;
 use crate::technique::Variant;
-use crate::timing::Timer;
 
 use passes::Passes;
 pub(crate) use plan::DEEPEST;
@@ -153,13 +153,11 @@ impl Tessellation {
             .collect();
         let totals = gpu.read_buffer(self.passes.totals_buffer());
         for chunk in 0..self.plan.chunks().count() {
-            let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            let mut unstamped = Timer::none();
-            let mut frame = Recorder::new(&mut encoder, &mut unstamped);
-            let variant = Variant::Color;
-            self.passes
-                .record(&mut frame, stage, search, [mirror, chunk], variant);
-            gpu.queue.submit([encoder.finish()]);
+            gpu.run(|frame| {
+                let variant = Variant::Color;
+                self.passes
+                    .record(frame, stage, search, [mirror, chunk], variant);
+            });
             let made = self.passes.read(gpu, self.plan.level);
             for piece in made.pieces {
                 let of = |point: u32| {

@@ -7,17 +7,15 @@ use super::buffers::{Buffers, DRAW, LEVEL_STRIDE};
 use super::kernels::{GROUP, Kernels};
 use super::plan::Plan;
 use super::{Chunk, Level, Rule, Settings, Totals};
-use crate::ReflectError;
-use crate::data::{Found, Piece};
-use crate::gpu::Gpu;
-use crate::points::{Dispatch, Points, read};
-use crate::raster::Raster;
-use crate::recorder::Recorder;
+use crate::error::ReflectError;
+use crate::gpu::{Gpu, Recorder, Slot, dispatch_size, group, uniform};
 use crate::refine::Context;
 use crate::refine::originals::Originals;
-use crate::resources::{Slot, dispatch_size, group, uniform};
 use crate::search::Search;
 use crate::stage::Stage;
+use crate::stage::data::{Found, Piece};
+use crate::stage::points::{Dispatch, Points, read};
+use crate::stage::raster::Raster;
 use crate::technique::Variant;
 
 /// The loop, ready for one scene.

@@ -2,7 +2,7 @@
 
 use encase::ShaderSize;
 
-use crate::data::{Found, Piece};
+use crate::stage::data::{Found, Piece};
 
 /// Most triangles in a chunk: bounds a frame's buffers at about 250 MB, even where the device
 /// would take more.

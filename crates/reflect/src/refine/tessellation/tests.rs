@@ -4,8 +4,8 @@ use catoptric_scene::Scene;
 use glam::Vec3;
 
 use super::*;
-use crate::points::points_layout;
 use crate::spec::parse;
+use crate::stage::points::points_layout;
 use crate::testing::{Searched, gpu_or_skip, scene};
 use crate::{Output, prepare};
 
@@ -43,15 +43,13 @@ impl Tessellated {
         let mut tessellation =
             Tessellation::within(&context, rule, binding).expect("fits the device");
         tessellation.begin_frame(gpu, &searched.stage, false);
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let mut unstamped = Timer::none();
-        let mut frame = Recorder::new(&mut encoder, &mut unstamped);
-        for mirror in 0..searched.stage.world.mirrors.len() {
-            let search = searched.search.as_ref();
-            let variant = Variant::AllLayers;
-            tessellation.record(&mut frame, &searched.stage, search, mirror, variant);
-        }
-        gpu.queue.submit([encoder.finish()]);
+        gpu.run(|frame| {
+            for mirror in 0..searched.stage.world.mirrors.len() {
+                let search = searched.search.as_ref();
+                let variant = Variant::AllLayers;
+                tessellation.record(frame, &searched.stage, search, mirror, variant);
+            }
+        });
         Self {
             searched,
             rule,

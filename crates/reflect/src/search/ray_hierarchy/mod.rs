@@ -10,16 +10,16 @@
 //! distance from a ray.
 
 pub(crate) mod pyramid;
+#[cfg(test)]
+mod twin;
 
 use std::cell::Cell;
 
-use crate::ReflectError;
-use crate::data::RepairUniform;
-use crate::gpu::Gpu;
-use crate::points::Points;
-use crate::recorder::Recorder;
-use crate::resources::{Slot, group, layout, uniform, view};
+use crate::error::ReflectError;
+use crate::gpu::{Gpu, Recorder, Slot, group, layout, uniform, view};
 use crate::stage::Stage;
+use crate::stage::data::RepairUniform;
+use crate::stage::points::Points;
 use crate::technique::Variant;
 
 use super::{Context, Pipelines, Search};

@@ -1,9 +1,7 @@
 //! The pyramid of spheres and cones over the reflected rays of one mirror (Szabo 2013, Alg. 4.1).
 
-use crate::ReflectError;
-use crate::gpu::Gpu;
-use crate::recorder::Recorder;
-use crate::resources::{Slot, compute, group, layout, level_view, module, pyramid};
+use crate::error::ReflectError;
+use crate::gpu::{Gpu, Recorder, Slot, compute, group, layout, level_view, module, pyramid};
 use crate::stage::Stage;
 
 /// Side of the workgroups, in texels.

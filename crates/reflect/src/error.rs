@@ -1,0 +1,35 @@
+//! Why a technique cannot render.
+
+use thiserror::Error;
+
+use crate::gpu::BuildError;
+
+/// Why a technique cannot render.
+#[derive(Debug, Error)]
+pub enum ReflectError {
+    /// A shader that does not link, or a buffer that the device cannot hold.
+    #[error(transparent)]
+    Build(#[from] BuildError),
+    /// No image of this size.
+    #[error("resolution {}x{}: the adapter takes 1 to {limit} pixels a side", size[0], size[1])]
+    Size {
+        /// Width and height.
+        size: [u32; 2],
+        /// Longest side.
+        limit: u32,
+    },
+    /// A hierarchy of rays to trace that is deeper than the shader's stack.
+    #[error("the scene's ray-tracing hierarchy has {depth} levels, the shader takes {limit}")]
+    Deep {
+        /// Levels of nodes.
+        depth: usize,
+        /// As many as may wait.
+        limit: usize,
+    },
+    /// An option that this adapter cannot serve.
+    #[error("the adapter {0}")]
+    Adapter(&'static str),
+    /// A frame of a scene that was not prepared for.
+    #[error("the scene has other vertices, triangles or mirrors than the one prepared for")]
+    OtherScene,
+}

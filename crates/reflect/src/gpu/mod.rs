@@ -1,0 +1,33 @@
+//! The graphics device and what is made on it: adapters, buffers, textures, pipelines, linked shaders,
+//! the recording of passes and their times. Knows nothing of mirrors, and imports nothing else of
+//! this crate.
+
+mod adapters;
+mod bindings;
+mod buffers;
+mod clock;
+mod device;
+mod error;
+mod pipelines;
+mod read;
+mod recorder;
+mod self_test;
+pub mod shaders;
+mod stamps;
+mod textures;
+
+pub use adapters::{AdapterInfo, Prefer, adapters};
+pub(crate) use bindings::{Slot, group, layout};
+pub(crate) use buffers::{
+    set_storage, set_uniform, storage, storage_bytes, storage_zeros, uniform,
+};
+pub use clock::FrameTime;
+pub(crate) use clock::Timer;
+pub use device::Gpu;
+pub use error::{BuildError, GpuError};
+pub(crate) use pipelines::{
+    RasterEntries, RasterTargets, compute, dispatch_size, module, raster, raster_to,
+};
+pub(crate) use recorder::{Begin, Recorder};
+pub use self_test::SelfTest;
+pub(crate) use textures::{DEPTH, FLOAT4, level_view, pyramid, target, texture_array, view};

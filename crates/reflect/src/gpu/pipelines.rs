@@ -1,0 +1,143 @@
+//! Pipelines: linked shaders with their entry points, layouts and targets.
+
+use super::device::Gpu;
+use super::error::BuildError;
+use super::shaders;
+use super::textures::{DEPTH, FLOAT4};
+
+/// Most workgroups in one dimension on every adapter.
+const MAX_GROUPS: u32 = 65535;
+
+/// Links and compiles a program of `shaders/` with the given features on.
+pub(crate) fn module(
+    gpu: &Gpu,
+    program: &str,
+    features: &[&str],
+) -> Result<wgpu::ShaderModule, BuildError> {
+    let text = shaders::link(program, features).map_err(BuildError::Shader)?;
+    Ok(gpu
+        .device
+        .create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(program),
+            source: wgpu::ShaderSource::Wgsl(text.into()),
+        }))
+}
+
+fn pipeline_layout(gpu: &Gpu, layouts: &[Option<&wgpu::BindGroupLayout>]) -> wgpu::PipelineLayout {
+    gpu.device
+        .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: None,
+            bind_group_layouts: layouts,
+            immediate_size: 0,
+        })
+}
+
+/// A compute pipeline; `layouts` are those of groups 0, 1, …, `None` for a group not used.
+pub(crate) fn compute(
+    gpu: &Gpu,
+    module: &wgpu::ShaderModule,
+    entry: &str,
+    layouts: &[Option<&wgpu::BindGroupLayout>],
+) -> wgpu::ComputePipeline {
+    gpu.device
+        .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(entry),
+            layout: Some(&pipeline_layout(gpu, layouts)),
+            module,
+            entry_point: Some(entry),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            cache: None,
+        })
+}
+
+/// What a raster pipeline draws to.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RasterTargets {
+    /// Number of [`FLOAT4`] colour targets.
+    pub colors: usize,
+    /// Depth test (greater wins) and write.
+    pub depth: bool,
+}
+
+/// A raster pipeline of triangle lists, drawn from both sides, with the vertex entry `vertex`.
+pub(crate) fn raster(
+    gpu: &Gpu,
+    module: &wgpu::ShaderModule,
+    fragment: &str,
+    targets: RasterTargets,
+    layouts: &[Option<&wgpu::BindGroupLayout>],
+    buffers: &[Option<wgpu::VertexBufferLayout<'_>>],
+) -> wgpu::RenderPipeline {
+    let entries = RasterEntries {
+        module,
+        vertex: "vertex",
+        fragment,
+    };
+    let formats = vec![FLOAT4; targets.colors];
+    raster_to(gpu, entries, &formats, targets.depth, layouts, buffers)
+}
+
+/// The two ends of a raster pipeline.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RasterEntries<'a> {
+    pub module: &'a wgpu::ShaderModule,
+    pub vertex: &'a str,
+    pub fragment: &'a str,
+}
+
+/// A raster pipeline to colour targets of any formats; `depth` as in [`RasterTargets`].
+pub(crate) fn raster_to(
+    gpu: &Gpu,
+    RasterEntries {
+        module,
+        vertex,
+        fragment,
+    }: RasterEntries<'_>,
+    formats: &[wgpu::TextureFormat],
+    depth: bool,
+    layouts: &[Option<&wgpu::BindGroupLayout>],
+    buffers: &[Option<wgpu::VertexBufferLayout<'_>>],
+) -> wgpu::RenderPipeline {
+    let color = |format: &wgpu::TextureFormat| {
+        Some(wgpu::ColorTargetState {
+            format: *format,
+            blend: None,
+            write_mask: wgpu::ColorWrites::ALL,
+        })
+    };
+    let colors: Vec<_> = formats.iter().map(color).collect();
+    gpu.device
+        .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(fragment),
+            layout: Some(&pipeline_layout(gpu, layouts)),
+            vertex: wgpu::VertexState {
+                module,
+                entry_point: Some(vertex),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                buffers,
+            },
+            primitive: wgpu::PrimitiveState::default(),
+            depth_stencil: depth.then(|| wgpu::DepthStencilState {
+                format: DEPTH,
+                depth_write_enabled: Some(true),
+                depth_compare: Some(wgpu::CompareFunction::Greater),
+                stencil: wgpu::StencilState::default(),
+                bias: wgpu::DepthBiasState::default(),
+            }),
+            multisample: wgpu::MultisampleState::default(),
+            fragment: Some(wgpu::FragmentState {
+                module,
+                entry_point: Some(fragment),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                targets: &colors,
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+}
+
+/// Workgroups in x and y that give at least `count` groups; a shader finds its group's index as
+/// `x + y · num_workgroups.x`.
+pub(crate) fn dispatch_size(count: u32) -> [u32; 2] {
+    [count.min(MAX_GROUPS), count.div_ceil(MAX_GROUPS)]
+}

@@ -1,0 +1,80 @@
+//! A technique at work: what a caller holds.
+
+use std::time::Instant;
+
+use catoptric_scene::Scene;
+
+use crate::error::ReflectError;
+use crate::gpu::{FrameTime, Gpu, Recorder, Timer};
+use crate::technique::{Built, DistanceLevel, Output, Technique, Variant};
+
+/// A technique that stands ready to render one scene.
+pub struct Prepared<'g> {
+    gpu: &'g Gpu,
+    technique: Box<dyn Technique>,
+    timer: Timer,
+}
+
+impl<'g> Prepared<'g> {
+    pub(crate) fn new(gpu: &'g Gpu, technique: Box<dyn Technique>) -> Self {
+        Self {
+            gpu,
+            technique,
+            timer: Timer::new(gpu),
+        }
+    }
+
+    /// Brings a technique that carries answers from frame to frame to where the second frame of a
+    /// still scene finds it; does nothing for others.
+    ///
+    /// # Errors
+    /// As [`Prepared::render`].
+    pub fn settle(&mut self) -> Result<(), ReflectError> {
+        if self.technique.carries_over() {
+            self.render()?;
+        }
+        Ok(())
+    }
+
+    /// Renders a frame with all layers and counts the work.
+    ///
+    /// # Errors
+    /// As when preparing, where something is prepared for each frame; the device's own errors are
+    /// bugs and panic.
+    pub fn render(&mut self) -> Result<Output, ReflectError> {
+        self.technique.begin_frame(self.gpu)?;
+        self.gpu.run(|frame| {
+            self.technique.record(frame, Variant::AllLayers);
+        });
+        Ok(self.technique.output(self.gpu))
+    }
+
+    /// Renders a frame as an application would, colour and depth only, and times it.
+    ///
+    /// # Errors
+    /// As [`Prepared::render`].
+    pub fn time_frame(&mut self) -> Result<FrameTime, ReflectError> {
+        let start = Instant::now();
+        let built = self.technique.begin_frame(self.gpu)?;
+        let build_ms = (built == Built::OnTheCpu).then(|| start.elapsed().as_secs_f64() * 1e3);
+        let time = self.timer.time(self.gpu, |frame| {
+            self.technique.record(frame, Variant::Color);
+        });
+        Ok(FrameTime { build_ms, ..time })
+    }
+
+    /// The pyramid over the first mirror's cube maps of distance, from texels to a cell a face; `None`
+    /// where the technique has no such pyramid.
+    pub fn distance_levels(&self) -> Option<Vec<DistanceLevel>> {
+        self.technique.distance_levels(self.gpu)
+    }
+
+    /// Takes over what moved since the last frame: eye, object vertices, mirrors. Nothing is
+    /// prepared anew that the motion does not touch.
+    ///
+    /// # Errors
+    /// A scene with other objects, triangles or mirrors than the one prepared for.
+    pub fn update(&mut self, scene: &Scene) -> Result<(), ReflectError> {
+        self.technique.update(self.gpu, scene)
+    }
+}

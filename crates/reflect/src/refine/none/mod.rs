@@ -1,0 +1,83 @@
+//! No refinement: the scene's own triangles, each vertex at its reflection point.
+
+use catoptric_frame::{Triangles, VertexResult};
+
+use super::originals::Originals;
+use super::{Context, Refine};
+use crate::error::ReflectError;
+use crate::gpu::{Gpu, Recorder, Slot, group};
+use crate::search::Search;
+use crate::stage::Stage;
+use crate::stage::points::Efforts;
+use crate::stage::raster::Raster;
+use crate::technique::Variant;
+
+struct Unrefined {
+    raster: Raster,
+    originals: Originals,
+    found: Vec<wgpu::BindGroup>,
+}
+
+pub(crate) fn make(context: &Context<'_>) -> Result<Box<dyn Refine>, ReflectError> {
+    let Context { gpu, stage, .. } = context;
+    let raster = Raster::new(
+        gpu,
+        context.search_options,
+        stage,
+        "virtual",
+        &[],
+        &[Slot::Read],
+    )?;
+    let originals = Originals::new(context);
+    let found = originals.batches.iter().map(|batch| {
+        let found = batch.found.as_entire_binding();
+        group(gpu, &raster.own_layout, &[found])
+    });
+    Ok(Box::new(Unrefined {
+        found: found.collect(),
+        raster,
+        originals,
+    }))
+}
+
+impl Refine for Unrefined {
+    fn update(&mut self, _gpu: &Gpu, _stage: &Stage) {}
+
+    fn begin_frame(&mut self, gpu: &Gpu, stage: &Stage, warm: bool) {
+        self.originals.begin_frame(gpu, stage, warm);
+    }
+
+    fn record(
+        &self,
+        frame: &mut Recorder<'_>,
+        stage: &Stage,
+        search: &dyn Search,
+        mirror: usize,
+        variant: Variant,
+    ) {
+        self.originals.record(frame, stage, search, mirror, variant);
+        let found = &self.found[mirror];
+        self.raster
+            .record(frame, stage, mirror, found, variant, |pass| {
+                pass.draw(0..stage.world.corners, 0..1);
+            });
+    }
+
+    fn vertices(&self, gpu: &Gpu, stage: &Stage, search: &dyn Search) -> Vec<VertexResult> {
+        self.originals.vertices(gpu, stage, search)
+    }
+
+    fn efforts(&self, gpu: &Gpu, stage: &Stage) -> Efforts {
+        self.originals.efforts(gpu, stage)
+    }
+
+    fn triangles(&self, _gpu: &Gpu, stage: &Stage) -> Triangles {
+        let drawn = u64::from(stage.world.corners / 3) * self.originals.batches.len() as u64;
+        Triangles {
+            input: drawn,
+            drawn,
+            by_level: vec![drawn],
+            unfinished: 0,
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! Where a search looks for one vertex, step by step.
+//!
+//! The search runs with the shader feature `path` on a batch of one point: record 0 of its answers
+//! is the answer, the records after it are the steps, with the level in place of the state and a
+//! distance of 1.
+
+use catoptric_scene::Scene;
+use encase::StorageBuffer;
+use glam::{Vec2, Vec3};
+
+use crate::error::ReflectError;
+use crate::gpu::{Gpu, Recorder, storage_bytes};
+use crate::registry::Maker;
+use crate::search::{Account, Context};
+use crate::spec::Spec;
+use crate::stage::Stage;
+use crate::stage::data::Range;
+use crate::stage::points::{Dispatch, Points, points_layout};
+use crate::technique::Variant;
+
+/// Steps that are kept.
+const MOST: u32 = 4096;
+
+/// A step of a search.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Visit {
+    /// Image coordinates of the texel, or of the centre of the sphere that was looked at.
+    pub at: Vec2,
+    /// Level of a hierarchy, the pixels being level 0.
+    pub level: u32,
+}
+
+/// The steps of the search of `spec` for a world-space point on a mirror (an index), at most 4095.
+/// Empty where the technique is no search, or one that does not tell its steps.
+///
+/// # Errors
+/// As [`crate::prepare`].
+pub fn path(
+    gpu: &Gpu,
+    spec: &Spec,
+    scene: &Scene,
+    size: [u32; 2],
+    point: Vec3,
+    mirror: usize,
+) -> Result<Vec<Visit>, ReflectError> {
+    let Maker::Search(make) = spec.options.info().maker else {
+        return Ok(Vec::new());
+    };
+    let stage = Stage::new(gpu, &spec.options, scene, size)?;
+    let points_layout = points_layout(gpu);
+    let mut search = make(&Context {
+        gpu,
+        options: &spec.options,
+        stage: &stage,
+        points_layout: &points_layout,
+        account: Account::Path,
+    })?;
+    let range = Range {
+        first: 0,
+        count: 1,
+        warm: 0,
+    };
+    let mut bytes = StorageBuffer::new(Vec::new());
+    bytes.write(&range).expect("writing to memory");
+    let range = storage_bytes(gpu, bytes.as_ref());
+    let position = storage_bytes(gpu, bytemuck::cast_slice(&point.extend(1.0).to_array()));
+    let dispatch = Dispatch::Direct(1);
+    let points = Points::with_range(gpu, &points_layout, &position, MOST, range, dispatch);
+    search.begin_frame(gpu);
+    gpu.run(|frame| {
+        stage.begin(frame, Variant::AllLayers);
+        search.record_build(frame, &stage);
+        search.record_search(frame, &stage, mirror, &points, Variant::AllLayers);
+    });
+    let records = points.read_found(gpu, MOST).into_iter().skip(1);
+    let visits = records.take_while(|record| record.distance == 1.0);
+    let visit = |record: crate::stage::data::Found| Visit {
+        at: record.at,
+        level: record.state,
+    };
+    Ok(visits.map(visit).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spec::parse;
+    use crate::testing::{Searched, gpu_or_skip, scene};
+
+    #[test]
+    fn paths_are_as_long_as_the_counted_steps_and_end_at_the_answer() {
+        let Some(gpu) = gpu_or_skip() else { return };
+        let (scene, size) = (scene("prototype-sphere"), [128, 128]);
+        for technique in ["linear", "ray-hierarchy(repair=enlarge)"] {
+            let searched = Searched::new(&gpu, &scene, technique, size);
+            let spec = parse(technique).expect("a technique");
+            for vertex in [0, 7] {
+                let point = scene.objects[0].mesh.positions[vertex];
+                let visits = path(&gpu, &spec, &scene, size, point, 0).expect("fits the device");
+                let count = vertex as u32 + 1;
+                let effort = searched.batches[0].read_efforts(&gpu, count)[vertex];
+                let found = searched.batches[0].read_found(&gpu, count)[vertex];
+                assert_eq!(visits.len(), effort.steps as usize, "{technique}");
+                let last = visits.last().expect("at least one step");
+                // The walk ends where it stays; the descent at the parent of the pixel.
+                let near = if last.level == 0 { 0.0 } else { 8.0 };
+                assert!(
+                    last.at.distance(found.at) <= near,
+                    "{technique}: {last:?} {found:?}"
+                );
+            }
+        }
+    }
+}

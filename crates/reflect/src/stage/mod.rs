@@ -1,0 +1,125 @@
+//! What every technique stands on: the scene on the GPU, the eye's picture, the mirror G-buffer,
+//! and the composite that puts the technique's reflections into the picture.
+
+pub(crate) mod composite;
+pub(crate) mod data;
+pub(crate) mod gbuffer;
+mod geometry;
+pub(crate) mod points;
+pub(crate) mod primary;
+pub(crate) mod raster;
+#[cfg(test)]
+pub(crate) mod twin;
+pub(crate) mod world;
+
+use catoptric_frame::{Frame, Image, Primary as PrimaryLayers, Reflected, Status};
+use catoptric_scene::Scene;
+use glam::Vec3;
+
+use crate::error::ReflectError;
+use crate::gpu::{Begin, Gpu, Recorder};
+use crate::spec::Options;
+use crate::technique::Variant;
+use composite::{Composite, Reflections};
+use gbuffer::GBuffer;
+use primary::Primary;
+use world::World;
+
+/// The passes before and after a technique's own.
+pub(crate) struct Stage {
+    pub world: World,
+    pub primary: Primary,
+    pub gbuffer: GBuffer,
+    pub reflections: Reflections,
+    composite: Composite,
+}
+
+impl Stage {
+    /// Reads the options that every technique has: `gbuffer`, `under`.
+    pub(crate) fn new(
+        gpu: &Gpu,
+        options: &Options,
+        scene: &Scene,
+        size: [u32; 2],
+    ) -> Result<Self, ReflectError> {
+        let exact = options.is("gbuffer", "exact");
+        let dark = options.is("under", "dark");
+        let world = World::new(gpu, scene, size, exact, dark)?;
+        let primary = Primary::new(gpu, &world)?;
+        let gbuffer = GBuffer::new(gpu, &world)?;
+        let reflections = Reflections::new(gpu, size);
+        let composite = Composite::new(gpu, &world, &primary, &gbuffer, &reflections)?;
+        Ok(Self {
+            world,
+            primary,
+            gbuffer,
+            reflections,
+            composite,
+        })
+    }
+
+    /// Primary picture and mirror G-buffer.
+    pub(crate) fn begin(&self, frame: &mut Recorder<'_>, variant: Variant) {
+        self.primary.record(frame, &self.world, variant);
+        let depth = (&self.primary.depth, Begin::Keep);
+        self.gbuffer.record(frame, &self.world, depth);
+    }
+
+    /// The picture with its reflections.
+    pub(crate) fn finish(&self, frame: &mut Recorder<'_>) {
+        self.composite.record(frame, &self.world);
+    }
+
+    /// Reads back the layers of the frame that was rendered last, in [`Variant::AllLayers`].
+    pub(crate) fn layers(&self, gpu: &Gpu) -> Frame {
+        let read = |texture| gpu.read_texture(texture);
+        let xyz = |texel: &[f32; 4]| Vec3::new(texel[0], texel[1], texel[2]);
+        let size = self.world.size;
+        let image = |texels: &[[f32; 4]]| Image::from_vec(size, texels.iter().map(xyz).collect());
+        let ids = |texels: &[[f32; 4]]| {
+            let ids = texels.iter().map(|texel| texel[3] as u32).collect();
+            Image::from_vec(size, ids)
+        };
+        let (mut position, mut normal) = (read(&self.primary.position), read(&self.primary.normal));
+        let mirror_position = read(&self.gbuffer.position);
+        let mirror_normal = read(&self.gbuffer.normal);
+        let mut hits = read(&self.reflections.position);
+        let mut status = vec![Status::NotMirror; hits.len()];
+        let mut distance = vec![0.0; hits.len()];
+        for pixel in 0..hits.len() {
+            if mirror_position[pixel][3] == 0.0 {
+                hits[pixel] = [0.0; 4];
+                continue;
+            }
+            position[pixel] = mirror_position[pixel];
+            normal[pixel] = mirror_normal[pixel];
+            status[pixel] = match mirror_normal[pixel][3] as u32 {
+                2 => Status::Back,
+                3 => Status::Below,
+                _ if hits[pixel][3] < 0.0 => Status::Unresolved,
+                _ => Status::Resolved,
+            };
+            if status[pixel] == Status::Resolved && hits[pixel][3] > 0.0 {
+                distance[pixel] = xyz(&hits[pixel]).distance(xyz(&mirror_position[pixel]));
+            } else {
+                hits[pixel] = [0.0; 4];
+            }
+        }
+        Frame {
+            color: image(&read(&self.composite.color)),
+            primary: Some(PrimaryLayers {
+                id: ids(&position),
+                position: image(&position),
+                normal: image(&normal),
+            }),
+            reflected: Some(Reflected {
+                status: Image::from_vec(size, status),
+                id: ids(&hits),
+                position: image(&hits),
+                distance: Image::from_vec(size, distance),
+                bounces: None,
+            }),
+            names: self.world.names(),
+        }
+    }
+}

@@ -1,0 +1,216 @@
+//! A batch of points for a search to find reflections of, and the answers.
+
+use catoptric_frame::{VertexResult, VertexState, Work};
+use encase::internal::CreateFrom;
+use encase::{ShaderSize, ShaderType, StorageBuffer};
+
+use crate::gpu::{
+    Gpu, Slot, dispatch_size, group, layout, set_storage, storage_bytes, storage_zeros,
+};
+use crate::stage::data::{Effort, Found, Range};
+
+/// Threads of a search's workgroup; one thread a point.
+const GROUP: u32 = 64;
+
+/// How many workgroups a search of a batch takes.
+#[derive(Clone, Debug)]
+pub(crate) enum Dispatch {
+    /// Known when the frame is recorded.
+    Direct(u32),
+    /// Written by an earlier pass: three `u32` at this offset.
+    Indirect(wgpu::Buffer, u64),
+}
+
+/// Group 2 of every search: `points`, `found`, `range`, `efforts`. One record a point.
+pub(crate) struct Points {
+    /// [`Found`] records.
+    pub found: wgpu::Buffer,
+    /// One [`Range`]: which points are searched.
+    pub range: wgpu::Buffer,
+    /// [`Effort`] records, written when work is counted.
+    pub efforts: wgpu::Buffer,
+    /// For `range`.
+    pub dispatch: Dispatch,
+    pub group: wgpu::BindGroup,
+}
+
+/// The layout of [`Points::group`].
+pub(crate) fn points_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+    let slots = [Slot::Read, Slot::Write, Slot::Read, Slot::Write];
+    layout(gpu, "points", &slots)
+}
+
+impl Points {
+    /// A batch that searches all of `count` positions.
+    pub(crate) fn new(
+        gpu: &Gpu,
+        layout: &wgpu::BindGroupLayout,
+        positions: &wgpu::Buffer,
+        count: u32,
+    ) -> Self {
+        let range = storage_bytes(gpu, &[0; 16]);
+        let all = Range {
+            first: 0,
+            count,
+            warm: 0,
+        };
+        set_storage(gpu, &range, &all);
+        let dispatch = Dispatch::Direct(count.div_ceil(GROUP));
+        Self::with_range(gpu, layout, positions, count, range, dispatch)
+    }
+
+    /// A batch of at most `capacity` positions, of which `range` says which are searched.
+    pub(crate) fn with_range(
+        gpu: &Gpu,
+        layout: &wgpu::BindGroupLayout,
+        positions: &wgpu::Buffer,
+        capacity: u32,
+        range: wgpu::Buffer,
+        dispatch: Dispatch,
+    ) -> Self {
+        let records =
+            |size: std::num::NonZeroU64| storage_zeros(gpu, u64::from(capacity) * size.get());
+        let found = records(Found::SHADER_SIZE);
+        let efforts = records(Effort::SHADER_SIZE);
+        let resources = [positions, &found, &range, &efforts].map(wgpu::Buffer::as_entire_binding);
+        Self {
+            group: group(gpu, layout, &resources),
+            found,
+            range,
+            efforts,
+            dispatch,
+        }
+    }
+
+    /// Tells the search whether `found` holds the previous frame's answers.
+    pub(crate) fn set_warm(&self, gpu: &Gpu, count: u32, warm: bool) {
+        let range = Range {
+            first: 0,
+            count,
+            warm: u32::from(warm),
+        };
+        set_storage(gpu, &self.range, &range);
+    }
+
+    /// Dispatches one thread a point of the range.
+    pub(crate) fn run(&self, pass: &mut wgpu::ComputePass<'_>) {
+        match &self.dispatch {
+            Dispatch::Direct(groups) => {
+                let [x, y] = dispatch_size(*groups);
+                pass.dispatch_workgroups(x, y, 1);
+            }
+            Dispatch::Indirect(buffer, offset) => {
+                pass.dispatch_workgroups_indirect(buffer, *offset);
+            }
+        }
+    }
+}
+
+/// Totals of what searches took.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Efforts {
+    /// Points searched for.
+    pub searched: u64,
+    pub steps: u64,
+    pub evaluations: u64,
+    pub node_tests: u64,
+}
+
+impl Efforts {
+    pub(crate) fn add(&mut self, other: Self) {
+        self.searched += other.searched;
+        self.steps += other.steps;
+        self.evaluations += other.evaluations;
+        self.node_tests += other.node_tests;
+    }
+
+    /// Means per point searched for; node tests only where the search goes through a hierarchy.
+    pub(crate) fn mean(&self, hierarchy: bool) -> Work {
+        let mean = |total: u64| (self.searched > 0).then(|| total as f64 / self.searched as f64);
+        Work {
+            steps: mean(self.steps),
+            evaluations: mean(self.evaluations),
+            node_tests: mean(self.node_tests).filter(|_| hierarchy),
+            ..Work::default()
+        }
+    }
+}
+
+impl Points {
+    /// The first `count` answers on the CPU.
+    pub(crate) fn read_found(&self, gpu: &Gpu, count: u32) -> Vec<Found> {
+        read(gpu, &self.found, count)
+    }
+
+    /// What the first `count` searches took.
+    pub(crate) fn read_efforts(&self, gpu: &Gpu, count: u32) -> Vec<Effort> {
+        read(gpu, &self.efforts, count)
+    }
+
+    /// Sums of [`Points::read_efforts`].
+    pub(crate) fn total(&self, gpu: &Gpu, count: u32) -> Efforts {
+        let mut total = Efforts::default();
+        for effort in self.read_efforts(gpu, count) {
+            total.add(Efforts {
+                searched: 1,
+                steps: effort.steps.into(),
+                evaluations: effort.evaluations.into(),
+                node_tests: effort.node_tests.into(),
+            });
+        }
+        total
+    }
+
+    /// Answers and efforts as results: one for each of `places` (object id, vertex), which are the
+    /// first points of the batch. `has_holes`: the search reports holes and enlargements.
+    pub(crate) fn results(
+        &self,
+        gpu: &Gpu,
+        mirror: u32,
+        places: &[(u32, u32)],
+        has_holes: bool,
+    ) -> Vec<VertexResult> {
+        let count = places.len() as u32;
+        let answers = self.read_found(gpu, count).into_iter();
+        let answers = answers.zip(self.read_efforts(gpu, count));
+        let flag = |effort: &Effort, flag: u32| has_holes.then_some(effort.flags & flag != 0);
+        places
+            .iter()
+            .zip(answers)
+            .map(|(&(object, vertex), (found, effort))| VertexResult {
+                object,
+                vertex,
+                mirror,
+                state: match found.state {
+                    Found::FOUND => VertexState::Found,
+                    Found::HIDDEN => VertexState::Hidden,
+                    Found::FAILED => VertexState::Failed,
+                    state => unreachable!("no search writes the state {state}"),
+                },
+                at: found.at,
+                steps: effort.steps,
+                evaluations: effort.evaluations,
+                node_tests: effort.node_tests,
+                hole: flag(&effort, Effort::MET_HOLE),
+                enlarged: flag(&effort, Effort::ENLARGED),
+                stand_in: effort.flags & Effort::STAND_IN != 0,
+            })
+            .collect()
+    }
+}
+
+/// The first `count` records of a buffer.
+pub(crate) fn read<T: ShaderType + ShaderSize + CreateFrom>(
+    gpu: &Gpu,
+    buffer: &wgpu::Buffer,
+    count: u32,
+) -> Vec<T> {
+    let size = <T as ShaderSize>::SHADER_SIZE.get() * u64::from(count);
+    if size == 0 {
+        return Vec::new();
+    }
+    let bytes = gpu.read_buffer_part(buffer, size);
+    StorageBuffer::new(bytes)
+        .create()
+        .expect("the buffer holds whole records")
+}

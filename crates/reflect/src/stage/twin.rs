@@ -1,0 +1,78 @@
+//! What CPU twins read. A twin is what can be wrong in silence on the GPU, run again line by line
+//! in `f32`: the file `twin.rs` in a technique's folder. Twins are kept close to the shaders' text,
+//! so that the two can be compared by eye; they are for tests.
+
+use glam::{IVec2, Vec3, Vec4};
+
+use crate::gpu::{Gpu, Recorder};
+use crate::stage::Stage;
+use crate::stage::gbuffer::{self, MirrorsAlone};
+
+/// `shared/mirror.wesl`: the G-buffer of one mirror.
+pub(crate) struct GBuffer {
+    pub size: IVec2,
+    /// World space.
+    pub eye: Vec3,
+    pub mirror_id: u32,
+    position: Vec<Vec4>,
+    normal: Vec<Vec4>,
+}
+
+const SIDE_BACK: f32 = 2.0;
+
+impl GBuffer {
+    /// The G-buffer of the frame rendered last, as `mirror` (an index) sees it.
+    pub(crate) fn read(gpu: &Gpu, stage: &Stage, mirror: usize) -> Self {
+        Self::copy(gpu, stage, &stage.gbuffer, mirror)
+    }
+
+    /// As if no object stood before the mirrors.
+    pub(crate) fn alone(gpu: &Gpu, stage: &Stage, mirror: usize) -> Self {
+        let alone = MirrorsAlone::new(gpu, &stage.world).expect("fits the device");
+        gpu.run(|frame| alone.record(frame, &stage.world));
+        Self::copy(gpu, stage, &alone.gbuffer, mirror)
+    }
+
+    fn copy(gpu: &Gpu, stage: &Stage, gbuffer: &gbuffer::GBuffer, mirror: usize) -> Self {
+        let read = |texture| {
+            let texels = gpu.read_texture(texture);
+            texels.into_iter().map(Vec4::from_array).collect()
+        };
+        Self {
+            size: IVec2::from_array(stage.world.size.map(|side| side as i32)),
+            eye: stage.world.scene.camera.eye.as_vec3(),
+            mirror_id: stage.world.mirrors[mirror].id,
+            position: read(&gbuffer.position),
+            normal: read(&gbuffer.normal),
+        }
+    }
+
+    fn index(&self, texel: IVec2) -> usize {
+        (texel.y * self.size.x + texel.x) as usize
+    }
+
+    pub(crate) fn position(&self, texel: IVec2) -> Vec3 {
+        self.position[self.index(texel)].truncate()
+    }
+
+    pub(crate) fn normal(&self, texel: IVec2) -> Vec3 {
+        self.normal[self.index(texel)].truncate()
+    }
+
+    /// True where the reflecting side of this mirror is seen.
+    pub(crate) fn on_mirror(&self, texel: IVec2) -> bool {
+        if texel.cmplt(IVec2::ZERO).any() || texel.cmpge(self.size).any() {
+            return false;
+        }
+        self.position[self.index(texel)].w == self.mirror_id as f32
+            && self.normal[self.index(texel)].w != SIDE_BACK
+    }
+}
+
+/// World-space positions of all vertices, as searches read them.
+pub(crate) fn vertices(stage: &Stage) -> Vec<Vec3> {
+    let objects = stage.world.scene.objects.iter();
+    objects
+        .flat_map(|object| object.mesh.positions.iter().copied())
+        .collect()
+}

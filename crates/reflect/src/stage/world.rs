@@ -1,0 +1,208 @@
+//! A scene on the GPU: the eye, the objects' surfaces and the mirrors, as every pass reads them.
+
+use catoptric_frame::Name;
+use catoptric_scene::{Mesh, Mirror, Scene};
+use encase::ShaderSize;
+use glam::Vec3;
+use wgpu::util::DeviceExt;
+
+use crate::error::ReflectError;
+use crate::gpu::{Gpu, Slot, group, layout, set_uniform, storage, storage_bytes, uniform};
+use crate::stage::data::{Found, MirrorUniform, ViewUniform};
+use crate::stage::geometry::Geometry;
+
+/// A scene on the GPU, for one image size.
+pub(crate) struct World {
+    /// Width and height of the image in pixels.
+    pub size: [u32; 2],
+    /// The scene as it stands now.
+    pub scene: Scene,
+    /// Group 0 of every pass: `shared/view.wesl`.
+    pub view_layout: wgpu::BindGroupLayout,
+    pub view_group: wgpu::BindGroup,
+    view: wgpu::Buffer,
+    dark: bool,
+    /// Group 2 of passes that draw objects: `shared/surface.wesl`.
+    pub surface_layout: wgpu::BindGroupLayout,
+    pub surface_group: wgpu::BindGroup,
+    /// World-space positions of all objects' vertices, one after the other, w = 1.
+    pub positions: wgpu::Buffer,
+    /// Three times the number of triangles of all objects.
+    pub corners: u32,
+    pub mirrors: Vec<MirrorOnGpu>,
+}
+
+/// A mirror on the GPU.
+pub(crate) struct MirrorOnGpu {
+    pub id: u32,
+    /// Its surface is intersected exactly by each eye ray, not taken from the triangles.
+    pub exact: bool,
+    /// A [`MirrorUniform`].
+    pub uniform: wgpu::Buffer,
+    /// Position, shading normal and face normal of each corner of the drawn triangles.
+    pub vertices: wgpu::Buffer,
+    pub vertex_count: u32,
+}
+
+impl World {
+    /// Puts a scene on the GPU. `exact`: analytic mirrors are intersected; `dark`: mirrors are
+    /// black where no reflection is drawn.
+    pub(crate) fn new(
+        gpu: &Gpu,
+        scene: &Scene,
+        size: [u32; 2],
+        exact: bool,
+        dark: bool,
+    ) -> Result<Self, ReflectError> {
+        let limit = gpu.device.limits().max_texture_dimension_2d;
+        if size[0].max(size[1]) > limit || size[0].min(size[1]) == 0 {
+            return Err(ReflectError::Size { size, limit });
+        }
+        let geometry = Geometry::new(scene);
+        gpu.check_binding(
+            [
+                geometry.corners.len() as u64 * crate::stage::data::Corner::SHADER_SIZE.get(),
+                geometry.texels.len() as u64 * 16,
+                geometry.positions.len() as u64 * Found::SHADER_SIZE.get(),
+            ]
+            .into_iter()
+            .max()
+            .unwrap_or(0),
+        )?;
+        let view_layout = layout(gpu, "view", &[Slot::Uniform]);
+        let view = uniform(gpu, &ViewUniform::new(scene, size, dark));
+        let surface_layout = layout(gpu, "surface", &[Slot::Read; 4]);
+        let positions = storage_bytes(gpu, bytemuck::cast_slice(&geometry.positions));
+        let surface_group = group(
+            gpu,
+            &surface_layout,
+            &[
+                positions.as_entire_binding(),
+                storage(gpu, &geometry.corners).as_entire_binding(),
+                storage(gpu, &geometry.materials).as_entire_binding(),
+                storage_bytes(gpu, bytemuck::cast_slice(&geometry.texels)).as_entire_binding(),
+            ],
+        );
+        let eye = scene.camera.view(size).eye;
+        let mirrors = scene
+            .mirrors
+            .iter()
+            .enumerate()
+            .map(|(index, mirror)| {
+                let exact = exact && mirror.shape.is_analytic();
+                let corners = mirror_corners(mirror, exact);
+                let id = scene.mirror_id(index);
+                MirrorOnGpu {
+                    id,
+                    exact,
+                    uniform: uniform(gpu, &MirrorUniform::new(&mirror.shape, id, eye)),
+                    vertex_count: corners.len() as u32,
+                    vertices: gpu
+                        .device
+                        .create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                            label: Some("mirror"),
+                            contents: bytemuck::cast_slice(&corners),
+                            usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
+                        }),
+                }
+            })
+            .collect();
+        Ok(Self {
+            size,
+            scene: scene.clone(),
+            view_group: group(gpu, &view_layout, &[view.as_entire_binding()]),
+            view_layout,
+            view,
+            dark,
+            surface_layout,
+            surface_group,
+            positions,
+            corners: geometry.corners.len() as u32,
+            mirrors,
+        })
+    }
+
+    /// Takes over what moved: eye, vertex positions, mirrors.
+    ///
+    /// # Errors
+    /// A scene with other numbers of vertices, corners or mirrors.
+    pub(crate) fn update(&mut self, gpu: &Gpu, scene: &Scene) -> Result<(), ReflectError> {
+        let counts = |scene: &Scene| {
+            let mirrors = scene.mirrors.iter().map(|mirror| mirror.tessellation);
+            let mirrors: Vec<_> = mirrors.collect();
+            (scene.vertex_count(), scene.triangle_count(), mirrors)
+        };
+        if counts(scene) != counts(&self.scene) {
+            return Err(ReflectError::OtherScene);
+        }
+        set_uniform(
+            gpu,
+            &self.view,
+            &ViewUniform::new(scene, self.size, self.dark),
+        );
+        let positions = Geometry::new(scene).positions;
+        gpu.queue
+            .write_buffer(&self.positions, 0, bytemuck::cast_slice(&positions));
+        let eye = scene.camera.view(self.size).eye;
+        for (on_gpu, mirror) in self.mirrors.iter().zip(&scene.mirrors) {
+            let data = MirrorUniform::new(&mirror.shape, on_gpu.id, eye);
+            set_uniform(gpu, &on_gpu.uniform, &data);
+            let corners = mirror_corners(mirror, on_gpu.exact);
+            gpu.queue
+                .write_buffer(&on_gpu.vertices, 0, bytemuck::cast_slice(&corners));
+        }
+        self.scene = scene.clone();
+        Ok(())
+    }
+
+    /// Number of unique vertices of all objects.
+    pub(crate) fn vertices(&self) -> u32 {
+        self.scene.vertex_count() as u32
+    }
+
+    /// `(object id, vertex)` of each position, in order.
+    pub(crate) fn places(&self) -> impl Iterator<Item = (u32, u32)> {
+        let objects = self.scene.objects.iter().zip(1_u32..);
+        objects.flat_map(|(object, id)| {
+            (0..object.mesh.positions.len() as u32).map(move |vertex| (id, vertex))
+        })
+    }
+
+    /// Names of all ids.
+    pub(crate) fn names(&self) -> Vec<Name> {
+        let ids = self.scene.ids().into_iter();
+        ids.map(|(id, name, mirror)| Name { id, name, mirror })
+            .collect()
+    }
+}
+
+/// Position, shading normal and face normal of each corner of the triangles a mirror is drawn
+/// from: slightly outside the surface where each pixel intersects the surface itself.
+fn mirror_corners(mirror: &Mirror, exact: bool) -> Vec<[Vec3; 3]> {
+    let mesh = if exact {
+        mirror.shape.cover(mirror.tessellation)
+    } else {
+        mirror.shape.tessellate(mirror.tessellation)
+    };
+    corners(&mesh)
+}
+
+fn corners(mesh: &Mesh) -> Vec<[Vec3; 3]> {
+    let mut corners = Vec::with_capacity(mesh.triangles.len() * 3);
+    for (triangle, normals) in mesh.triangles.iter().zip(&mesh.normals) {
+        let [a, b, c] = triangle.map(|vertex| mesh.positions[vertex as usize]);
+        let face = (b - a).cross(c - a).normalize_or_zero();
+        let face = if face.dot(normals[0] + normals[1] + normals[2]) < 0.0 {
+            -face
+        } else {
+            face
+        };
+        corners.extend(
+            [a, b, c]
+                .into_iter()
+                .zip(*normals)
+                .map(|(position, normal)| [position, normal, face]),
+        );
+    }
+    corners
+}

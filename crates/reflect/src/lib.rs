@@ -15,9 +15,10 @@ mod error;
 mod gpu;
 mod image_order;
 mod object_order;
+mod options;
 mod prepared;
 mod refine;
-pub mod registry;
+mod registry;
 mod search;
 mod spec;
 mod stage;
@@ -27,15 +28,17 @@ mod testing;
 
 pub use error::ReflectError;
 pub use gpu::{AdapterInfo, FrameTime, Gpu, GpuError, Prefer, SelfTest, adapters, shaders};
+pub use options::{OptionInfo, Values};
 pub use prepared::Prepared;
-pub use registry::{Family, OptionInfo, TechniqueInfo, Values, list};
-pub use search::path::{Visit, path};
+pub use registry::list;
+pub use search::path::Visit;
 pub use search::reflector_cubemap::twin::{CubemapAnswer, CubemapStep, CubemapWalk};
-pub use spec::{Options, Spec, SpecError, parse};
-pub use technique::{DistanceLevel, Output};
+pub use spec::{Options, Spec, SpecError};
+pub use technique::{DistanceLevel, Family, Output, Properties, TechniqueInfo};
 
 use catoptric_scene::Scene;
-use registry::Maker;
+use glam::Vec3;
+use registry::Asked;
 
 /// Whether a technique can draw a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -46,16 +49,25 @@ pub enum Support {
     No(String),
 }
 
+/// Parses the name of a technique: `SEARCH[(options)][+REFINE[(options)]]` or `NAME[(options)]`.
+///
+/// # Errors
+/// Unknown names, options and values, with the nearest known one; options given twice.
+pub fn parse(text: &str) -> Result<Spec, SpecError> {
+    spec::parse(&list(), text)
+}
+
 /// Whether `spec` can draw `scene`.
 pub fn supports(spec: &Spec, scene: &Scene) -> Support {
     if scene.mirrors.is_empty() {
         return Support::No("the scene has no mirror".to_owned());
     }
-    let parts = [Some(&spec.options), spec.refinement.as_ref()];
-    let objection = parts
-        .into_iter()
-        .flatten()
-        .find_map(|options| (options.info().objection)(options, scene));
+    let objection = match registry::asked(spec) {
+        Asked::ObjectOrder(search, refinement) => {
+            (search.objection(scene)).or_else(|| refinement.objection(scene))
+        }
+        Asked::ImageOrder(technique) => technique.objection(scene),
+    };
     objection.map_or(Support::Yes, Support::No)
 }
 
@@ -63,25 +75,36 @@ pub fn supports(spec: &Spec, scene: &Scene) -> Support {
 ///
 /// # Errors
 /// A size or scene that the device cannot hold.
-///
-/// # Panics
-/// On a `Spec` that [`parse`] would not have made.
 pub fn prepare<'g>(
     gpu: &'g Gpu,
     spec: &Spec,
     scene: &Scene,
     size: [u32; 2],
 ) -> Result<Prepared<'g>, ReflectError> {
-    let refinement = spec.refinement.as_ref().map(|options| options.info().maker);
-    let technique = match (spec.options.info().maker, refinement) {
-        (Maker::Search(search), None) => {
-            object_order::prepare(gpu, (search, refine::none::make), spec, scene, size)
+    let technique = match registry::asked(spec) {
+        Asked::ObjectOrder(search, refinement) => {
+            object_order::prepare(gpu, &search, refinement.as_ref(), scene, size)
         }
-        (Maker::Search(search), Some(Maker::Refinement(refine))) => {
-            object_order::prepare(gpu, (search, refine), spec, scene, size)
-        }
-        (Maker::ImageOrder(make), None) => image_order::prepare(gpu, make, spec, scene, size),
-        parts => unreachable!("a parsed technique is never {parts:?}"),
+        Asked::ImageOrder(technique) => image_order::prepare(gpu, &technique, scene, size),
     }?;
     Ok(Prepared::new(gpu, technique))
+}
+
+/// The steps of the search of `spec` for a world-space point on a mirror (an index), at most 4095.
+/// Empty where the technique is no search, or one that does not tell its steps.
+///
+/// # Errors
+/// As [`prepare`].
+pub fn path(
+    gpu: &Gpu,
+    spec: &Spec,
+    scene: &Scene,
+    size: [u32; 2],
+    point: Vec3,
+    mirror: usize,
+) -> Result<Vec<Visit>, ReflectError> {
+    match registry::asked(spec) {
+        Asked::ObjectOrder(asked, _) => search::path::path(gpu, &asked, scene, size, point, mirror),
+        Asked::ImageOrder(_) => Ok(Vec::new()),
+    }
 }

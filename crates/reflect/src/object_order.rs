@@ -7,17 +7,22 @@ use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder};
 use crate::refine::{self, Refine};
 use crate::search::{self, Account, Search};
-use crate::spec::Spec;
 use crate::stage::Stage;
+use crate::stage::options::{Hidden, SearchOptions};
 use crate::stage::points::points_layout;
 use crate::stage::raster::Raster;
-use crate::technique::{Built, Output, Technique, Variant};
+use crate::stage::variant::Variant;
+use crate::technique::{Built, Output, Properties, Technique};
 
 /// A search with a refinement.
 struct ObjectOrder {
     stage: Stage,
     search: Box<dyn Search>,
     refine: Box<dyn Refine>,
+    /// What the search is like.
+    properties: Properties,
+    /// The search tells of each of the scene's vertices.
+    tells_of_vertices: bool,
     /// A frame has been rendered: its answers may serve the next.
     has_previous: bool,
 }
@@ -25,26 +30,33 @@ struct ObjectOrder {
 /// Makes a search with its refinement ready for a scene.
 pub(crate) fn prepare(
     gpu: &Gpu,
-    (make_search, make_refine): (search::Make, refine::Make),
-    spec: &Spec,
+    asked: &search::Asked,
+    refinement: &dyn refine::Recipe,
     scene: &Scene,
     size: [u32; 2],
 ) -> Result<Box<dyn Technique>, ReflectError> {
-    let stage = Stage::new(gpu, &spec.options, scene, size)?;
+    let search::Asked { recipe, common } = asked;
+    let stage = Stage::new(gpu, common.stage, scene, size)?;
     let points_layout = points_layout(gpu);
-    let searched_options = refine::searched_options(spec, scene);
-    let search = make_search(&search::Context {
+    let continued = SearchOptions {
+        hidden: Hidden::Extend,
+        ..*common
+    };
+    let continues = common.hidden == Hidden::Extend
+        || refinement.wants_continued() && recipe.objection(&continued, scene).is_none();
+    let properties = recipe.properties();
+    let search = recipe.make(&search::Context {
         gpu,
-        options: &searched_options,
         stage: &stage,
+        extends: continues,
         points_layout: &points_layout,
         account: Account::Efforts,
     })?;
-    let refine = make_refine(&refine::Context {
+    let refine = refinement.make(&refine::Context {
         gpu,
-        search_options: &spec.options,
-        searched_options: &searched_options,
-        options: spec.refinement.as_ref(),
+        drawn: *common,
+        search: properties,
+        continued: continues,
         stage: &stage,
         points_layout: &points_layout,
     })?;
@@ -52,6 +64,8 @@ pub(crate) fn prepare(
         stage,
         search,
         refine,
+        properties,
+        tells_of_vertices: !refinement.properties().interpolates,
         has_previous: false,
     }))
 }
@@ -65,7 +79,7 @@ impl Technique for ObjectOrder {
     }
 
     fn begin_frame(&mut self, gpu: &Gpu) -> Result<Built, ReflectError> {
-        let warm = self.has_previous && self.search.uses_previous();
+        let warm = self.has_previous && self.properties.carries_over;
         self.search.begin_frame(gpu);
         self.refine.begin_frame(gpu, &self.stage, warm);
         self.has_previous = true;
@@ -86,17 +100,16 @@ impl Technique for ObjectOrder {
     }
 
     fn carries_over(&self) -> bool {
-        self.search.uses_previous()
+        self.properties.carries_over
     }
 
     fn output(&self, gpu: &Gpu) -> Output {
         let efforts = self.refine.efforts(gpu, &self.stage);
-        let vertices = (self.refine).vertices(gpu, &self.stage, self.search.as_ref());
-        let hierarchy = vertices.iter().any(|vertex| vertex.hole.is_some());
+        let hierarchy = self.properties.has_holes && self.tells_of_vertices;
         Output {
             frame: self.stage.layers(gpu),
             may_be_unresolved: false,
-            vertices: Some(vertices),
+            vertices: Some(self.refine.vertices(gpu, &self.stage)),
             searched: efforts.searched,
             triangles: Some(self.refine.triangles(gpu, &self.stage)),
             t_junctions: (self.refine).t_junctions(gpu, &self.stage, self.search.as_ref()),

@@ -5,8 +5,9 @@ use std::time::Instant;
 use catoptric_scene::Scene;
 
 use crate::error::ReflectError;
-use crate::gpu::{FrameTime, Gpu, Recorder, Timer};
-use crate::technique::{Built, DistanceLevel, Output, Technique, Variant};
+use crate::gpu::{FrameTime, Gpu, Timer};
+use crate::stage::variant::Variant;
+use crate::technique::{Built, DistanceLevel, Output, Technique};
 
 /// A technique that stands ready to render one scene.
 pub struct Prepared<'g> {

@@ -4,10 +4,14 @@ use std::fmt;
 
 use thiserror::Error;
 
-use crate::registry::{Family, OptionInfo, TECHNIQUES, TechniqueInfo, Values};
+use crate::options::{OptionInfo, Settled, Value, Values};
+use crate::technique::{Family, Named, Properties, TechniqueInfo};
+
+/// The techniques that a name may be of.
+pub(crate) type Table = [&'static TechniqueInfo];
 
 /// A parsed technique name with every option settled. `Display` gives the canonical name: options
-/// in the registry's order, those left out that have their default.
+/// in the order in which they are listed, those left out that have their default.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spec {
     pub(crate) options: Options,
@@ -18,7 +22,7 @@ pub struct Spec {
 #[derive(Clone, Debug)]
 pub struct Options {
     info: &'static TechniqueInfo,
-    values: Vec<(&'static str, String)>,
+    values: Vec<Value>,
 }
 
 /// What is wrong with a technique name.
@@ -97,10 +101,14 @@ fn hint(word: &str, known: impl Iterator<Item = &'static str> + Clone) -> String
     }
 }
 
-fn technique(name: &str, refines: bool) -> Result<&'static TechniqueInfo, SpecError> {
+fn technique(
+    table: &Table,
+    name: &str,
+    refines: bool,
+) -> Result<&'static TechniqueInfo, SpecError> {
     let of = |refines: bool| {
         let is_refinement = |info: &&TechniqueInfo| info.family == Family::Refinement;
-        (TECHNIQUES.iter()).filter(move |info| is_refinement(info) == refines)
+        (table.iter().copied()).filter(move |info| is_refinement(info) == refines)
     };
     let found = of(refines).find(|info| info.name == name);
     let found = found.ok_or_else(|| {
@@ -124,11 +132,11 @@ fn technique(name: &str, refines: bool) -> Result<&'static TechniqueInfo, SpecEr
     }
 }
 
-/// Parses a technique name.
+/// Parses the name of a technique of a table.
 ///
 /// # Errors
 /// Unknown names, options and values, with the nearest known one; options given twice.
-pub fn parse(text: &str) -> Result<Spec, SpecError> {
+pub(crate) fn parse(table: &Table, text: &str) -> Result<Spec, SpecError> {
     let written: String = text.chars().filter(|c| !c.is_whitespace()).collect();
     let (first, refinement) = match written.split_once('+') {
         Some((first, refinement)) => (first, Some(format!("+{refinement}"))),
@@ -136,8 +144,8 @@ pub fn parse(text: &str) -> Result<Spec, SpecError> {
     };
     // A refinement alone is told where it goes.
     let first = if first.is_empty() { &written } else { first };
-    let options = Options::parse(first, false)?;
-    let refinement = refinement.map(|text| Options::parse(&text, true));
+    let options = Options::parse(table, first, false)?;
+    let refinement = refinement.map(|text| Options::parse(table, &text, true));
     if refinement.is_some() && options.info.family != Family::Search {
         return Err(SpecError::Alone {
             name: options.info.name,
@@ -151,7 +159,7 @@ pub fn parse(text: &str) -> Result<Spec, SpecError> {
 
 impl Options {
     /// Parses `NAME` or `NAME(key=value,…)`.
-    fn parse(text: &str, refines: bool) -> Result<Self, SpecError> {
+    fn parse(table: &Table, text: &str, refines: bool) -> Result<Self, SpecError> {
         let (name, arguments) = match text.split_once('(') {
             Some((name, rest)) => (
                 name,
@@ -160,57 +168,54 @@ impl Options {
             ),
             None => (text, ""),
         };
-        let info = technique(name, refines)?;
-        let default = |option: &OptionInfo| (option.name, option.default());
-        let mut values: Vec<_> = info.options().map(default).collect();
+        let info = technique(table, name, refines)?;
+        let values = info.options().map(OptionInfo::default_value).collect();
+        let mut options = Self { info, values };
         let mut seen = Vec::new();
         let given = arguments.split(',').filter(|given| !given.is_empty());
         for argument in given {
             let (key, value) = argument
                 .split_once('=')
                 .ok_or_else(|| SpecError::Syntax(argument.to_owned()))?;
-            let known = info.options().zip(&mut values);
-            let (option, place) = known
-                .into_iter()
-                .find(|(option, _)| option.name == key)
-                .ok_or_else(|| SpecError::Option {
-                    technique: info.name,
-                    option: key.to_owned(),
-                    hint: hint(key, info.options().map(|option| option.name)),
-                })?;
+            let option = options.find(key)?;
             if seen.contains(&option.name) {
                 return Err(SpecError::Repeated {
                     option: option.name,
                 });
             }
             seen.push(option.name);
-            place.1 = settle(option, value).ok_or_else(|| SpecError::Value {
-                option: option.name,
-                value: value.to_owned(),
-                allowed: match option.values {
-                    Values::Words(_) => format!("one of {}", option.allowed()),
-                    Values::Whole { .. } | Values::Number { .. } => option.allowed(),
-                },
-            })?;
+            options.set(key, value)?;
         }
-        Ok(Self { info, values })
+        Ok(options)
     }
 
-    /// The same with another value of one option.
-    ///
-    /// # Panics
-    /// If the technique has no such option, or the option no such value: a bug in the caller.
-    pub(crate) fn with(&self, key: &str, value: &str) -> Self {
-        let option = self.info.options().find(|option| option.name == key);
-        let settled = option.and_then(|option| settle(option, value));
-        let settled = settled.unwrap_or_else(|| panic!("{} has no {key}={value}", self.info.name));
-        let mut changed = self.clone();
-        for (known, place) in &mut changed.values {
-            if *known == key {
-                place.clone_from(&settled);
+    /// The option of this name.
+    fn find(&self, key: &str) -> Result<&'static OptionInfo, SpecError> {
+        let found = self.info.options().find(|option| option.name == key);
+        found.ok_or_else(|| SpecError::Option {
+            technique: self.info.name,
+            option: key.to_owned(),
+            hint: hint(key, self.info.options().map(|option| option.name)),
+        })
+    }
+
+    /// Gives an option another value.
+    fn set(&mut self, key: &str, value: &str) -> Result<(), SpecError> {
+        let option = self.find(key)?;
+        let settled = option.settle(value).ok_or_else(|| SpecError::Value {
+            option: option.name,
+            value: value.to_owned(),
+            allowed: match option.values {
+                Values::Words(_) => format!("one of {}", option.allowed()),
+                Values::Whole { .. } | Values::Number { .. } => option.allowed(),
+            },
+        })?;
+        for (known, place) in self.info.options().zip(&mut self.values) {
+            if known.name == key {
+                *place = settled;
             }
         }
-        changed
+        Ok(())
     }
 
     /// Name of the technique.
@@ -218,67 +223,53 @@ impl Options {
         self.info.name
     }
 
+    /// Whether the technique has an option of this name.
+    pub fn has(&self, key: &str) -> bool {
+        self.info.options().any(|option| option.name == key)
+    }
+
+    #[cfg(test)]
     pub(crate) fn info(&self) -> &'static TechniqueInfo {
         self.info
     }
 
-    /// Whether the technique has an option of this name.
-    pub fn has(&self, key: &str) -> bool {
-        self.values.iter().any(|(known, _)| *known == key)
+    /// The values, in the order in which the options are declared.
+    pub(crate) fn values(&self) -> Settled<'_> {
+        self.values.iter().copied()
     }
 
-    /// Value of an option.
+    /// Value of an option, as it is written.
     ///
     /// # Panics
     /// If the technique has no such option: a bug in the caller.
-    pub fn text(&self, key: &str) -> &str {
-        let found = self.values.iter().find(|(known, _)| *known == key);
-        &found
-            .unwrap_or_else(|| panic!("{} has no option {key}", self.info.name))
-            .1
+    pub(crate) fn text(&self, key: &str) -> String {
+        let mut known = self.info.options().zip(self.values());
+        let found = known.find(|(option, _)| option.name == key);
+        let (option, value) =
+            found.unwrap_or_else(|| panic!("{} has no option {key}", self.info.name));
+        option.text(value)
     }
 
     /// Whether an option has this value.
-    ///
-    /// # Panics
-    /// As [`Options::text`].
-    pub fn is(&self, key: &str, value: &str) -> bool {
+    pub(crate) fn is(&self, key: &str, value: &str) -> bool {
         self.text(key) == value
     }
 
-    /// Value of an option that is a whole number.
-    ///
-    /// # Panics
-    /// As [`Options::text`], or if the option is no whole number.
-    pub fn whole(&self, key: &str) -> u32 {
+    /// Value of an option that is a whole number, as a word or not.
+    pub(crate) fn whole(&self, key: &str) -> u32 {
         self.text(key).parse().expect("settled as a whole number")
     }
 
     /// Value of an option that is a number.
-    ///
-    /// # Panics
-    /// As [`Options::text`], or if the option is no number.
-    pub fn number(&self, key: &str) -> f64 {
+    pub(crate) fn number(&self, key: &str) -> f64 {
         self.text(key).parse().expect("settled as a number")
     }
-}
 
-/// The value in its usual spelling; `None` if the option does not take it.
-fn settle(option: &OptionInfo, value: &str) -> Option<String> {
-    match option.values {
-        Values::Words(words) => words.contains(&value).then(|| value.to_owned()),
-        Values::Whole { range, .. } => {
-            let number: u32 = value.parse().ok()?;
-            (range[0]..=range[1])
-                .contains(&number)
-                .then(|| number.to_string())
-        }
-        Values::Number { range, .. } => {
-            let number: f64 = value.parse().ok()?;
-            (range[0]..=range[1])
-                .contains(&number)
-                .then(|| (number + 0.0).to_string())
-        }
+    /// The options as the technique `T` reads them, and the values of those of its family; `None` if
+    /// they are another technique's.
+    pub(crate) fn of<T: Named>(&self) -> Option<(T, Settled<'_>)> {
+        let mut values = self.values();
+        (self.info.name == T::INFO.name).then(|| (T::read(&mut values), values))
     }
 }
 
@@ -293,23 +284,21 @@ impl Spec {
         &self.options
     }
 
+    /// What the search or technique, with its refinement, is like.
+    pub fn properties(&self) -> Properties {
+        let of = |options: &Options| (options.info.properties)(&mut options.values());
+        let refinement = self.refinement.as_ref().map(of).unwrap_or_default();
+        of(&self.options).and(refinement)
+    }
+
     /// The same with another value of an option of the search or technique.
     ///
     /// # Errors
     /// There is no such option, or it does not take the value.
     pub fn with(&self, option: &str, value: &str) -> Result<Self, SpecError> {
-        let others = (self.options.values.iter()).filter(|(known, _)| *known != option);
-        let mut values: Vec<_> = others
-            .map(|(known, value)| format!("{known}={value}"))
-            .collect();
-        values.push(format!("{option}={value}"));
-        let refinement = self.refinement.iter().map(Options::to_string);
-        let refinement: String = refinement.collect();
-        parse(&format!(
-            "{}({}){refinement}",
-            self.name(),
-            values.join(",")
-        ))
+        let mut changed = self.clone();
+        changed.options.set(option, value)?;
+        Ok(changed)
     }
 
     /// The refinement with its options.
@@ -328,9 +317,9 @@ impl fmt::Display for Options {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.info.name)?;
         let mut separator = "(";
-        for (option, (key, value)) in self.info.options().zip(&self.values) {
-            if *value != option.default() {
-                write!(f, "{separator}{key}={value}")?;
+        for (option, value) in self.info.options().zip(self.values()) {
+            if value != option.default_value() {
+                write!(f, "{separator}{}={}", option.name, option.text(value))?;
                 separator = ",";
             }
         }
@@ -350,7 +339,13 @@ impl fmt::Display for Spec {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::registry::list;
+    use crate::search::linear::{Linear, Neighbours};
+    use crate::{Family, Spec, SpecError};
+
+    fn parse(text: &str) -> Result<Spec, SpecError> {
+        super::parse(&list(), text)
+    }
 
     #[test]
     fn a_technique_has_one_name_however_it_is_written() {
@@ -399,12 +394,14 @@ mod tests {
             parse("linear").unwrap(),
             parse("linear(residual=cross)").unwrap()
         );
-        assert!(parse("linear").unwrap().options().is("neighbours", "4"));
+        let spec = parse("linear").unwrap();
+        let linear = spec.options().of::<Linear>();
+        assert!(linear.is_some_and(|(linear, _)| linear.neighbours == Neighbours::Four));
     }
 
     #[test]
     fn every_name_that_a_default_gives_is_short() {
-        for info in TECHNIQUES.iter().filter(|info| info.reason().is_none()) {
+        for info in list().into_iter().filter(|info| info.reason().is_none()) {
             let all: Vec<_> = info
                 .options()
                 .map(|option| format!("{}={}", option.name, option.default()))

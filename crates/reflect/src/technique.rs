@@ -1,18 +1,129 @@
-//! What a technique is to the rest: it records frames and hands over what it drew and counted.
+//! What a technique is to the rest: how it introduces itself, what it is like, and that it records
+//! frames and hands over what it drew and counted.
+
+use std::fmt;
 
 use catoptric_frame::{Frame, Traced, Triangles, VertexResult, Work};
 use catoptric_scene::Scene;
 
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder};
+use crate::options::{OptionInfo, Options, Settled};
+use crate::stage::variant::Variant;
 
-/// What a frame is rendered for.
+/// What a technique is called, takes and is like.
+#[derive(Clone, Copy, Debug)]
+pub struct TechniqueInfo {
+    /// As written on the command line; refinements start with `+`.
+    pub name: &'static str,
+    /// A sentence.
+    pub what: &'static str,
+    /// How it goes together with others.
+    pub family: Family,
+    /// Where it was published.
+    pub paper: &'static str,
+    /// Groups of options, in display order: its own, then those of all its family.
+    pub(crate) options: [&'static [&'static [OptionInfo]]; 2],
+    /// Why it cannot be used.
+    pub(crate) missing: Option<&'static str>,
+    /// What it is like with these options.
+    pub(crate) properties: fn(&mut Settled<'_>) -> Properties,
+}
+
+/// How a technique goes together with others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Variant {
-    /// Accuracy: all layers, and the work is counted.
-    AllLayers,
-    /// Timing: colour and depth, as an application would.
-    Color,
+pub enum Family {
+    /// Finds reflection points; goes with any refinement.
+    Search,
+    /// Chooses the points to search; goes with any search.
+    Refinement,
+    /// Finds what each mirror pixel's ray meets; stands alone.
+    ImageOrder,
+}
+
+impl fmt::Display for Family {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Search => "search",
+            Self::Refinement => "refinement",
+            Self::ImageOrder => "image order",
+        })
+    }
+}
+
+impl TechniqueInfo {
+    /// Why it cannot be used; `None` if it can.
+    pub fn reason(&self) -> Option<&'static str> {
+        self.missing
+    }
+
+    /// All options, in display order.
+    pub fn options(&self) -> impl Iterator<Item = &'static OptionInfo> + Clone + use<> {
+        self.options.into_iter().flatten().copied().flatten()
+    }
+}
+
+/// How a technique introduces itself.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Info {
+    /// As written on the command line; refinements start with `+`.
+    pub name: &'static str,
+    /// A sentence.
+    pub what: &'static str,
+    /// Where it was published.
+    pub paper: &'static str,
+}
+
+/// What is listed: options that have a name.
+pub(crate) trait Named: Options {
+    const INFO: Info;
+}
+
+/// What a technique is like: asked by those who would else have to know it by its name. All false
+/// but for what holds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Properties {
+    /// It follows the reference's own rays from the reference's own points: what it is off by is the
+    /// measurement's noise.
+    pub is_control: bool,
+    /// A vertex may fall into a gap of its hierarchy; it tells of which vertices did ("holes").
+    pub has_holes: bool,
+    /// It walks from texel to texel and ends where no neighbour is better, right or wrong.
+    pub walks: bool,
+    /// Triangles are split.
+    pub splits_triangles: bool,
+    /// Vertices are interpolated between points that are searched.
+    pub interpolates: bool,
+    /// A frame is found more easily after another one.
+    pub carries_over: bool,
+    /// Mirror pixels may be left without an answer.
+    pub may_be_unresolved: bool,
+}
+
+impl Properties {
+    /// Nothing holds.
+    pub(crate) const NONE: Self = Self {
+        is_control: false,
+        has_holes: false,
+        walks: false,
+        splits_triangles: false,
+        interpolates: false,
+        carries_over: false,
+        may_be_unresolved: false,
+    };
+
+    /// Of a search with a refinement.
+    pub(crate) fn and(self, other: Self) -> Self {
+        Self {
+            is_control: self.is_control || other.is_control,
+            has_holes: self.has_holes || other.has_holes,
+            walks: self.walks || other.walks,
+            splits_triangles: self.splits_triangles || other.splits_triangles,
+            interpolates: self.interpolates || other.interpolates,
+            carries_over: self.carries_over || other.carries_over,
+            may_be_unresolved: self.may_be_unresolved || other.may_be_unresolved,
+        }
+    }
 }
 
 /// What was done before a frame.

@@ -2,13 +2,16 @@
 
 use catoptric_scene::{LoadOptions, Scene};
 
-use crate::gpu::{Gpu, Prefer, Recorder};
-use crate::registry::Maker;
+use crate::gpu::shaders::tests::parsed;
+use crate::gpu::{Gpu, Prefer};
+use crate::options::{OptionInfo, Options};
+use crate::parse;
+use crate::registry::{Asked, asked};
 use crate::search::{Account, Context, Search};
-use crate::spec::parse;
 use crate::stage::Stage;
+use crate::stage::options::{Hidden, StageOptions};
 use crate::stage::points::{Points, points_layout};
-use crate::technique::Variant;
+use crate::stage::variant::Variant;
 
 /// The software adapter; `None` means skip. Panics instead of skipping where
 /// `CATOPTRIC_REQUIRE_GPU=1` says that there must be one.
@@ -29,6 +32,14 @@ pub(crate) fn scene(name: &str) -> Scene {
     catoptric_scene::open(name, &LoadOptions::default()).expect("a built-in scene")
 }
 
+/// A scene on the GPU with the default options.
+pub(crate) fn stage(gpu: &Gpu, scene: &Scene, size: [u32; 2]) -> Stage {
+    let options = StageOptions::OWN.iter().map(OptionInfo::default_value);
+    let options: Vec<_> = options.collect();
+    let options = StageOptions::read(&mut options.iter().copied());
+    Stage::new(gpu, options, scene, size).expect("fits the device")
+}
+
 /// A search that has answered for all vertices of a scene, work counted.
 pub(crate) struct Searched {
     pub stage: Stage,
@@ -41,15 +52,15 @@ impl Searched {
     /// Runs the search of a technique once.
     pub(crate) fn new(gpu: &Gpu, scene: &Scene, technique: &str, size: [u32; 2]) -> Self {
         let spec = parse(technique).expect("a technique");
-        let Maker::Search(make) = spec.options.info().maker else {
+        let Asked::ObjectOrder(asked, _) = asked(&spec) else {
             panic!("{technique} is no search")
         };
-        let stage = Stage::new(gpu, &spec.options, scene, size).expect("fits the device");
+        let stage = Stage::new(gpu, asked.common.stage, scene, size).expect("fits the device");
         let points_layout = points_layout(gpu);
-        let search = make(&Context {
+        let search = asked.recipe.make(&Context {
             gpu,
-            options: &spec.options,
             stage: &stage,
+            extends: asked.common.hidden == Hidden::Extend,
             points_layout: &points_layout,
             account: Account::Efforts,
         });
@@ -78,3 +89,43 @@ impl Searched {
         });
     }
 }
+
+/// Names, offsets and size of a struct as a linked shader has it.
+pub(crate) fn shader_layout(
+    program: &str,
+    features: &[&str],
+    name: &str,
+) -> (Vec<(String, u64)>, u64) {
+    let module = parsed(program, features);
+    let is_it = |ty: &naga::Type| {
+        let full = ty.name.as_deref().unwrap_or_default();
+        full == name || full.ends_with(&format!("_{name}"))
+    };
+    let found = module.types.iter().find(|(_, ty)| is_it(ty));
+    let (_, ty) = found.unwrap_or_else(|| panic!("{program} has no struct {name}"));
+    let naga::TypeInner::Struct { members, span } = &ty.inner else {
+        panic!("{name} is no struct")
+    };
+    let member = |member: &naga::StructMember| {
+        let name = member.name.clone().unwrap_or_default();
+        (name, u64::from(member.offset))
+    };
+    (members.iter().map(member).collect(), u64::from(*span))
+}
+
+/// Checks a buffer struct against a struct of a linked shader, member by member.
+macro_rules! assert_layout {
+    ($ty:ident { $($field:ident),* $(,)? }, $program:expr, $features:expr, $name:literal $(,)?) => {{
+        let _every_field = |value: $ty| { let $ty { $($field: _),* } = value; };
+        let names = [$(stringify!($field)),*];
+        let members: Vec<_> = (names.iter().enumerate())
+            .map(|(index, name)| {
+                (name.to_string(), <$ty as encase::ShaderType>::METADATA.offset(index))
+            })
+            .collect();
+        let size = <$ty as encase::ShaderSize>::SHADER_SIZE.get();
+        let expected = $crate::testing::shader_layout($program, $features, $name);
+        assert_eq!((members, size), expected, "{}", $name);
+    }};
+}
+pub(crate) use assert_layout;

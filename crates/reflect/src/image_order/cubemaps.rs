@@ -11,7 +11,9 @@ use crate::gpu::{
     set_uniform, storage_bytes, target, texture_array, uniform,
 };
 use crate::stage::Stage;
-use crate::stage::data::{MirrorUniform, ViewUniform, beyond, diagonal};
+use crate::stage::extent::{beyond, diagonal};
+use crate::stage::mirror::MirrorUniform;
+use crate::stage::view::ViewUniform;
 
 /// Faces of a cube.
 pub(crate) const FACES: u32 = 6;

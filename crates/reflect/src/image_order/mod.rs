@@ -1,4 +1,4 @@
-//! Image order: for each mirror pixel, what its reflected ray meets. One file a technique, named
+//! Image order: for each mirror pixel, what its reflected ray meets. One folder a technique, named
 //! as its shader: mirror G-buffer → technique → composite.
 
 pub(crate) mod cubemap_trace;
@@ -13,9 +13,12 @@ use catoptric_scene::Scene;
 
 use crate::error::ReflectError;
 use crate::gpu::{Begin, Gpu, Recorder};
-use crate::spec::{Options, Spec};
+use crate::options::{self, Settled};
+use crate::spec::Options;
 use crate::stage::Stage;
-use crate::technique::{Built, DistanceLevel, Output, Technique, Variant};
+use crate::stage::options::{StageOptions, Surface};
+use crate::stage::variant::Variant;
+use crate::technique::{Built, DistanceLevel, Output, Properties, Technique};
 
 /// A technique of this family that stands ready for one scene and image size.
 pub(crate) trait ImageOrder {
@@ -39,11 +42,6 @@ pub(crate) trait ImageOrder {
     /// Work of the last frame: means per mirror pixel.
     fn work(&self, gpu: &Gpu, stage: &Stage) -> Work;
 
-    /// Whether there are rays that the technique can have no answer for.
-    fn may_be_unresolved(&self) -> bool {
-        false
-    }
-
     /// Pixel by pixel, what the last frame's rays took; `None` where none are followed step by
     /// step.
     fn traced(&self, _: &Gpu, _: &Stage) -> Option<Traced> {
@@ -61,8 +59,87 @@ pub(crate) trait ImageOrder {
     }
 }
 
-/// Makes a technique by its name.
-pub(crate) type Make = fn(&Gpu, &Options, &Stage) -> Result<Box<dyn ImageOrder>, ReflectError>;
+/// A technique of this family with its options settled, not yet made ready for a scene.
+pub(crate) trait Recipe {
+    /// Why it cannot draw a scene that has mirrors.
+    fn objection(&self, _scene: &Scene) -> Option<String> {
+        None
+    }
+
+    /// What it is like.
+    fn properties(&self) -> Properties {
+        Properties::default()
+    }
+
+    /// Makes it ready for a scene.
+    ///
+    /// # Errors
+    /// A scene or an image that the device cannot hold, or what the adapter cannot do.
+    fn make(&self, gpu: &Gpu, stage: &Stage) -> Result<Box<dyn ImageOrder>, ReflectError>;
+}
+
+/// A technique of this family as a name asks for it.
+pub(crate) struct Asked {
+    recipe: Box<dyn Recipe>,
+    common: StageOptions,
+}
+
+impl Asked {
+    /// The technique `T`.
+    pub(crate) fn read<T: options::Options + Recipe + 'static>(values: &mut Settled<'_>) -> Self {
+        Self {
+            recipe: Box::new(T::read(values)),
+            common: options::Options::read(values),
+        }
+    }
+
+    /// A technique that reads its options by key.
+    pub(crate) fn keyed(options: &Options, keyed: Keyed) -> Self {
+        let mut values = options.values();
+        values.nth(options.values().len() - 3);
+        Self {
+            recipe: Box::new((options.clone(), keyed)),
+            common: options::Options::read(&mut values),
+        }
+    }
+
+    /// Why it cannot draw a scene that has mirrors.
+    pub(crate) fn objection(&self, scene: &Scene) -> Option<String> {
+        self.recipe.objection(scene)
+    }
+
+    /// What it is like.
+    pub(crate) fn properties(&self) -> Properties {
+        let properties = self.recipe.properties();
+        Properties {
+            // Rays from the corners of a mesh are not the reference's.
+            is_control: properties.is_control && self.common.gbuffer == Surface::Exact,
+            ..properties
+        }
+    }
+}
+
+/// A technique that reads its options by key.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Keyed {
+    pub make: fn(&Gpu, &Options, &Stage) -> Result<Box<dyn ImageOrder>, ReflectError>,
+    pub objection: fn(&Options, &Scene) -> Option<String>,
+    pub properties: Properties,
+}
+
+impl Recipe for (Options, Keyed) {
+    fn objection(&self, scene: &Scene) -> Option<String> {
+        (self.1.objection)(&self.0, scene)
+    }
+
+    fn properties(&self) -> Properties {
+        self.1.properties
+    }
+
+    fn make(&self, gpu: &Gpu, stage: &Stage) -> Result<Box<dyn ImageOrder>, ReflectError> {
+        (self.1.make)(gpu, &self.0, stage)
+    }
+}
 
 /// Records a pass that draws reflections: colour and, with all layers, position and id. `depth` is
 /// cleared and kept as the colours are.
@@ -88,19 +165,23 @@ fn draw_reflections(
 struct Whole {
     stage: Stage,
     technique: Box<dyn ImageOrder>,
+    properties: Properties,
 }
 
 /// Makes a technique ready for a scene.
 pub(crate) fn prepare(
     gpu: &Gpu,
-    make: Make,
-    spec: &Spec,
+    asked: &Asked,
     scene: &Scene,
     size: [u32; 2],
 ) -> Result<Box<dyn Technique>, ReflectError> {
-    let stage = Stage::new(gpu, &spec.options, scene, size)?;
-    let technique = make(gpu, &spec.options, &stage)?;
-    Ok(Box::new(Whole { stage, technique }))
+    let stage = Stage::new(gpu, asked.common, scene, size)?;
+    let technique = asked.recipe.make(gpu, &stage)?;
+    Ok(Box::new(Whole {
+        stage,
+        technique,
+        properties: asked.properties(),
+    }))
 }
 
 impl Technique for Whole {
@@ -122,7 +203,7 @@ impl Technique for Whole {
     fn output(&self, gpu: &Gpu) -> Output {
         Output {
             frame: self.stage.layers(gpu),
-            may_be_unresolved: self.technique.may_be_unresolved(),
+            may_be_unresolved: self.properties.may_be_unresolved,
             vertices: None,
             searched: 0,
             triangles: None,

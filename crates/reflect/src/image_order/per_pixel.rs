@@ -3,7 +3,7 @@
 
 use crate::gpu::{Begin, Gpu, RasterTargets, Recorder, raster};
 use crate::stage::Stage;
-use crate::technique::Variant;
+use crate::stage::variant::Variant;
 
 /// A pass by one entry point of a shader.
 pub(super) struct Pass(wgpu::RenderPipeline);

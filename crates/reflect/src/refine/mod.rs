@@ -1,5 +1,5 @@
 //! Refinements: which points a search is asked for, and the triangles drawn from its answers.
-//! One file a refinement, named as its shader. Any search goes with any refinement.
+//! One folder a refinement, named as its shader. Any search goes with any refinement.
 
 pub(crate) mod adaptive;
 pub(crate) mod full;
@@ -14,10 +14,36 @@ use catoptric_scene::Scene;
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder};
 use crate::search::Search;
-use crate::spec::{Options, Spec};
 use crate::stage::Stage;
+use crate::stage::options::SearchOptions;
 use crate::stage::points::Efforts;
-use crate::technique::Variant;
+use crate::stage::variant::Variant;
+use crate::technique::Properties;
+
+/// A refinement with its options settled, not yet made ready for a scene.
+pub(crate) trait Recipe {
+    /// Why it cannot draw a scene.
+    fn objection(&self, _scene: &Scene) -> Option<String> {
+        None
+    }
+
+    /// What it is like.
+    fn properties(&self) -> Properties {
+        Properties::default()
+    }
+
+    /// Whether points behind the tangent plane are to be continued, whatever is drawn of them,
+    /// wherever the search can do so.
+    fn wants_continued(&self) -> bool {
+        false
+    }
+
+    /// Makes it ready for a scene.
+    ///
+    /// # Errors
+    /// A scene or an image that the device cannot hold.
+    fn make(&self, context: &Context<'_>) -> Result<Box<dyn Refine>, ReflectError>;
+}
 
 /// A refinement that stands ready for one scene and image size.
 pub(crate) trait Refine {
@@ -38,7 +64,7 @@ pub(crate) trait Refine {
     );
 
     /// Answers for the scene's vertices in the last frame, mirrors outer.
-    fn vertices(&self, gpu: &Gpu, stage: &Stage, search: &dyn Search) -> Vec<VertexResult>;
+    fn vertices(&self, gpu: &Gpu, stage: &Stage) -> Vec<VertexResult>;
 
     /// All searches of the last frame.
     fn efforts(&self, gpu: &Gpu, stage: &Stage) -> Efforts;
@@ -61,30 +87,13 @@ pub(crate) trait Refine {
 /// What every refinement is made from.
 pub(crate) struct Context<'a> {
     pub gpu: &'a Gpu,
-    /// Of the search, as asked for: `depth`, `hidden`.
-    pub search_options: &'a Options,
-    /// Those that the search is made with: see [`searched_options`].
-    pub searched_options: &'a Options,
-    /// The refinement's own; `None` without one.
-    pub options: Option<&'a Options>,
+    /// What is to be drawn.
+    pub drawn: SearchOptions,
+    /// What the search is like.
+    pub search: Properties,
+    /// The search continues points behind the tangent plane.
+    pub continued: bool,
     pub stage: &'a Stage,
     /// Of `Points::group`.
     pub points_layout: &'a wgpu::BindGroupLayout,
 }
-
-/// The options that a search is made with. The corners of a grid's cells are continued behind the
-/// tangent plane wherever the search can do so: a vertex that is reflected needs those of its
-/// cell's corners too that are not. Where there is no cell, it is the search as asked for.
-pub(crate) fn searched_options(spec: &Spec, scene: &Scene) -> Options {
-    let continued = spec.options.with("hidden", "extend");
-    let is_grid =
-        |refinement: &Options| refinement.info().name == "+grid" && !grid::is_bypassed(refinement);
-    let can = (spec.options.info().objection)(&continued, scene).is_none();
-    match spec.refinement.as_ref().is_some_and(is_grid) && can {
-        true => continued,
-        false => spec.options.clone(),
-    }
-}
-
-/// Makes a refinement by its name.
-pub(crate) type Make = fn(&Context<'_>) -> Result<Box<dyn Refine>, ReflectError>;

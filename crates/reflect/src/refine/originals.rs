@@ -7,11 +7,13 @@ use crate::gpu::{Gpu, Recorder};
 use crate::search::Search;
 use crate::stage::Stage;
 use crate::stage::points::{Efforts, Points};
-use crate::technique::Variant;
+use crate::stage::variant::Variant;
 
 /// One batch a mirror: all vertices of all objects.
 pub(crate) struct Originals {
     pub batches: Vec<Points>,
+    /// The search tells of holes.
+    has_holes: bool,
 }
 
 impl Originals {
@@ -23,6 +25,7 @@ impl Originals {
         };
         Self {
             batches: world.mirrors.iter().map(batch).collect(),
+            has_holes: context.search.has_holes,
         }
     }
 
@@ -46,16 +49,11 @@ impl Originals {
     }
 
     /// Answers of the last frame, mirrors outer.
-    pub(crate) fn vertices(
-        &self,
-        gpu: &Gpu,
-        stage: &Stage,
-        search: &dyn Search,
-    ) -> Vec<VertexResult> {
+    pub(crate) fn vertices(&self, gpu: &Gpu, stage: &Stage) -> Vec<VertexResult> {
         let places: Vec<_> = stage.world.places().collect();
         let batches = stage.world.mirrors.iter().zip(&self.batches);
         batches
-            .flat_map(|(mirror, batch)| batch.results(gpu, mirror.id, &places, search.has_holes()))
+            .flat_map(|(mirror, batch)| batch.results(gpu, mirror.id, &places, self.has_holes))
             .collect()
     }
 

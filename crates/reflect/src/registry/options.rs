@@ -1,7 +1,83 @@
-//! The options of every technique, with their defaults.
+//! Techniques whose options are still read by key.
 
-use super::{OptionInfo, Values};
-use crate::refine;
+use super::{Read, Technique, introduced};
+use crate::image_order::{Keyed, cubemap_trace, environment_map, ray_trace};
+use crate::options::{OptionInfo, Options, Settled, Values};
+use crate::stage::options::{StageOptions, Surface};
+use crate::technique::{Family, Info, Properties, TechniqueInfo};
+
+const fn keyed(
+    name: &'static str,
+    what: &'static str,
+    paper: &'static str,
+    options: &'static [&'static [OptionInfo]],
+    keyed: Keyed,
+    properties: fn(&mut Settled<'_>) -> Properties,
+) -> Technique {
+    Technique {
+        info: TechniqueInfo {
+            options: [options, StageOptions::TABLE],
+            properties,
+            ..introduced(Info { name, what, paper }, Family::ImageOrder)
+        },
+        read: Read::Keyed(keyed),
+    }
+}
+
+pub(super) const ENVIRONMENT_MAP: Technique = keyed(
+    "environment-map",
+    "one cube map from each mirror's centre, looked up in the reflected direction",
+    "baseline",
+    &[ENVIRONMENT_MAP_OPTIONS, CUBE_MAPS_OPTIONS],
+    Keyed {
+        make: environment_map::make,
+        objection: environment_map::objection,
+        properties: Properties::NONE,
+    },
+    |_| Properties::NONE,
+);
+
+pub(super) const CUBEMAP_TRACE: Technique = keyed(
+    "cubemap-trace",
+    "reflected rays marched through a few cube maps of distance",
+    "Číž 2017",
+    &[CUBEMAP_TRACE_OPTIONS, CUBE_MAPS_OPTIONS],
+    Keyed {
+        make: cubemap_trace::make,
+        objection: cubemap_trace::objection,
+        properties: UNRESOLVED,
+    },
+    |_| UNRESOLVED,
+);
+
+pub(super) const RAY_TRACE: Technique = keyed(
+    "ray-trace",
+    "the control: the reference's rays on the GPU",
+    "control",
+    &[RAY_TRACE_OPTIONS],
+    Keyed {
+        make: ray_trace::make,
+        objection: |_, _| None,
+        properties: CONTROL,
+    },
+    |values| {
+        values.nth(RAY_TRACE_OPTIONS.len() - 1);
+        Properties {
+            is_control: StageOptions::read(values).gbuffer == Surface::Exact,
+            ..CONTROL
+        }
+    },
+);
+
+const UNRESOLVED: Properties = Properties {
+    may_be_unresolved: true,
+    ..Properties::NONE
+};
+
+const CONTROL: Properties = Properties {
+    is_control: true,
+    ..Properties::NONE
+};
 
 const fn words(
     name: &'static str,
@@ -14,163 +90,6 @@ const fn words(
         what,
     }
 }
-
-/// Options of every technique.
-pub(super) const EVERY: &[OptionInfo] = &[
-    words(
-        "gbuffer",
-        &["exact", "mesh"],
-        "mirror points by analytic intersection, or of the drawn triangles",
-    ),
-    words(
-        "under",
-        &["background", "dark"],
-        "what a mirror shows where no reflection is drawn",
-    ),
-];
-
-/// Options of every search.
-pub(super) const SEARCH: &[OptionInfo] = &[
-    words(
-        "depth",
-        &["thesis", "virtual"],
-        "what the virtual triangles are depth-tested by; with a +grid that interpolates always virtual",
-    ),
-    words(
-        "hidden",
-        &["drop", "extend"],
-        "triangles with a hidden vertex are dropped, or drawn with the vertex continued behind the tangent plane unless all three are hidden",
-    ),
-    words(
-        "show",
-        &["shaded", "wireframe", "levels"],
-        "the reflected surfaces, those with the edges of the virtual triangles, or how often each was split",
-    ),
-];
-
-pub(super) const LINEAR: &[OptionInfo] = &[
-    words(
-        "start",
-        &["center", "bounds", "previous"],
-        "where the walk starts: the mirror's projected centre, its projected bounding box's, or the previous frame's answer",
-    ),
-    words(
-        "neighbours",
-        &["4", "8"],
-        "texels compared with in each step",
-    ),
-    words(
-        "residual",
-        &["dot", "cross"],
-        "the measure of a texel's fitness",
-    ),
-];
-
-pub(super) const NEWTON: &[OptionInfo] = &[words(
-    "start",
-    &["center", "bounds", "previous"],
-    "where the iteration starts: the mirror's projected centre, its projected bounding box's, or the previous frame's answer",
-)];
-
-pub(super) const RAY_HIERARCHY: &[OptionInfo] = &[
-    words(
-        "repair",
-        &["none", "enlarge", "stop"],
-        "what is done about holes between the cones: nothing, a second test with enlarged cones and spheres, or an answer from a level above the base",
-    ),
-    number(
-        "cone",
-        1.5,
-        [1.0, 100.0],
-        "factor on the cones' half angles (repair=enlarge)",
-    ),
-    number(
-        "sphere",
-        2.0,
-        [1.0, 100.0],
-        "factor on the spheres' radii (repair=enlarge)",
-    ),
-    whole(
-        "stop",
-        3,
-        [1, 14],
-        "level whose sphere centre is the answer, the pixels being level 0 (repair=stop)",
-    ),
-];
-
-pub(super) const REFLECTOR_CUBEMAP: &[OptionInfo] = &[
-    whole("iterations", 9, [1, 256], "most steps of a search"),
-    whole(
-        "size",
-        256,
-        [2, 2048],
-        "texels along an edge of the cube maps",
-    ),
-    words(
-        "start",
-        &["bisector", "eye"],
-        "the direction from the mirror's centre where a search starts (in a concave mirror the one against it): halfway between eye and vertex, or the eye's",
-    ),
-    number(
-        "step",
-        0.5,
-        [0.05, 4.0],
-        "length of the first step, in units of the projected bisector",
-    ),
-    number(
-        "shrink",
-        0.6,
-        [0.1, 1.0],
-        "factor of the step length where the field changes much within a step",
-    ),
-    number(
-        "grow",
-        1.25,
-        [1.0, 4.0],
-        "factor of the step length where the field changes little within a step",
-    ),
-];
-
-pub(super) const GRID: &[OptionInfo] = &[
-    number(
-        "fraction",
-        0.1,
-        [0.0, 1.0],
-        "grid vertices as a share of the mesh's; 1 searches every vertex of the mesh",
-    ),
-    number(
-        "cell",
-        0.0,
-        [0.0, 1e6],
-        "edge of the cells in world units, whatever their number; 0 goes by the fraction",
-    ),
-];
-
-const fn levels(default: u32, what: &'static str) -> OptionInfo {
-    OptionInfo {
-        name: "level",
-        values: Values::Whole {
-            default,
-            range: [0, refine::tessellation::DEEPEST],
-        },
-        what,
-    }
-}
-
-pub(super) const FULL: &[OptionInfo] = &[levels(
-    3,
-    "how often every triangle is split that is not hidden",
-)];
-
-pub(super) const ADAPTIVE: &[OptionInfo] = &[
-    levels(5, "how often a triangle may be split"),
-    number(
-        "threshold",
-        0.001,
-        [0.0, 1.0],
-        "edge error from which a triangle is split: sin²(δ/2) of the angle δ by which the mirror's normal at the middle misses; 0 splits all, 1 none",
-    ),
-];
 
 const fn whole(
     name: &'static str,
@@ -193,7 +112,7 @@ const fn number(
 }
 
 /// Options of techniques that look into cube maps of the scene.
-pub(super) const CUBE_MAPS: &[OptionInfo] = &[
+const CUBE_MAPS_OPTIONS: &[OptionInfo] = &[
     words(
         "size",
         &["256", "32", "64", "128", "512", "1024"],
@@ -206,7 +125,7 @@ pub(super) const CUBE_MAPS: &[OptionInfo] = &[
     ),
 ];
 
-pub(super) const RAY_TRACE: &[OptionInfo] = &[
+const RAY_TRACE_OPTIONS: &[OptionInfo] = &[
     words(
         "traversal",
         &["shader", "hardware"],
@@ -219,13 +138,13 @@ pub(super) const RAY_TRACE: &[OptionInfo] = &[
     ),
 ];
 
-pub(super) const ENVIRONMENT_MAP: &[OptionInfo] = &[words(
+const ENVIRONMENT_MAP_OPTIONS: &[OptionInfo] = &[words(
     "placement",
     &["center", "scene"],
     "where the map is taken from: the mirror's centre, or the first of its `cubemaps` in the scene file",
 )];
 
-pub(super) const CUBEMAP_TRACE: &[OptionInfo] = &[
+const CUBEMAP_TRACE_OPTIONS: &[OptionInfo] = &[
     whole("objects", 2, [1, 8], "cube maps of each mirror"),
     words(
         "placement",

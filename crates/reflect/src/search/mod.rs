@@ -1,4 +1,4 @@
-//! Searches: a reflection point for every vertex. One file a search, named as its shader.
+//! Searches: a reflection point for every vertex. One folder a search, named as its shader.
 //!
 //! A search reads the mirror G-buffer (or maps of its own) and answers for any batch of
 //! [`Points`]: the scene's vertices, a refinement's new points, a grid's corners.
@@ -10,12 +10,56 @@ pub(crate) mod ray_hierarchy;
 pub(crate) mod reflector_cubemap;
 mod start;
 
+use catoptric_scene::Scene;
+
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder, compute, module};
-use crate::spec::Options;
+use crate::options::{Options, Settled};
 use crate::stage::Stage;
+use crate::stage::options::SearchOptions;
 use crate::stage::points::Points;
-use crate::technique::Variant;
+use crate::stage::variant::Variant;
+use crate::technique::Properties;
+
+/// A search with its options settled, not yet made ready for a scene.
+pub(crate) trait Recipe {
+    /// Why the mirrors of a scene cannot be searched.
+    fn objection(&self, _common: &SearchOptions, _scene: &Scene) -> Option<String> {
+        None
+    }
+
+    /// What it is like.
+    fn properties(&self) -> Properties {
+        Properties::default()
+    }
+
+    /// Makes it ready for a scene.
+    ///
+    /// # Errors
+    /// A scene or an image that the device cannot hold.
+    fn make(&self, context: &Context<'_>) -> Result<Box<dyn Search>, ReflectError>;
+}
+
+/// A search as a name asks for it.
+pub(crate) struct Asked {
+    pub recipe: Box<dyn Recipe>,
+    pub common: SearchOptions,
+}
+
+impl Asked {
+    /// The search `T`.
+    pub(crate) fn read<T: Options + Recipe + 'static>(values: &mut Settled<'_>) -> Self {
+        Self {
+            recipe: Box::new(T::read(values)),
+            common: SearchOptions::read(values),
+        }
+    }
+
+    /// Why the mirrors of a scene cannot be searched.
+    pub(crate) fn objection(&self, scene: &Scene) -> Option<String> {
+        self.recipe.objection(&self.common, scene)
+    }
+}
 
 /// A search that stands ready for one scene and image size.
 pub(crate) trait Search {
@@ -37,23 +81,14 @@ pub(crate) trait Search {
         points: &Points,
         variant: Variant,
     );
-
-    /// Whether an answer of the previous frame helps to find this frame's.
-    fn uses_previous(&self) -> bool {
-        false
-    }
-
-    /// Whether the search reports holes and enlargements.
-    fn has_holes(&self) -> bool {
-        false
-    }
 }
 
 /// What every search is made from.
 pub(crate) struct Context<'a> {
     pub gpu: &'a Gpu,
-    pub options: &'a Options,
     pub stage: &'a Stage,
+    /// Vertices behind the tangent plane are continued (`hidden=extend`).
+    pub extends: bool,
     /// Of [`Points::group`].
     pub points_layout: &'a wgpu::BindGroupLayout,
     /// What the shader of [`Variant::AllLayers`] tells beside its answers.
@@ -134,6 +169,3 @@ impl Pipelines {
         });
     }
 }
-
-/// Makes a search by its name.
-pub(crate) type Make = fn(&Context<'_>) -> Result<Box<dyn Search>, ReflectError>;

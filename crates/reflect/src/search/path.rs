@@ -9,14 +9,12 @@ use encase::StorageBuffer;
 use glam::{Vec2, Vec3};
 
 use crate::error::ReflectError;
-use crate::gpu::{Gpu, Recorder, storage_bytes};
-use crate::registry::Maker;
-use crate::search::{Account, Context};
-use crate::spec::Spec;
+use crate::gpu::{Gpu, storage_bytes};
+use crate::search::{Account, Asked, Context};
 use crate::stage::Stage;
-use crate::stage::data::Range;
-use crate::stage::points::{Dispatch, Points, points_layout};
-use crate::technique::Variant;
+use crate::stage::options::Hidden;
+use crate::stage::points::{Dispatch, Found, Points, Range, points_layout};
+use crate::stage::variant::Variant;
 
 /// Steps that are kept.
 const MOST: u32 = 4096;
@@ -30,28 +28,25 @@ pub struct Visit {
     pub level: u32,
 }
 
-/// The steps of the search of `spec` for a world-space point on a mirror (an index), at most 4095.
-/// Empty where the technique is no search, or one that does not tell its steps.
+/// The steps of a search for a world-space point on a mirror (an index), at most 4095. Empty for a
+/// search that does not tell its steps.
 ///
 /// # Errors
 /// As [`crate::prepare`].
-pub fn path(
+pub(crate) fn path(
     gpu: &Gpu,
-    spec: &Spec,
+    asked: &Asked,
     scene: &Scene,
     size: [u32; 2],
     point: Vec3,
     mirror: usize,
 ) -> Result<Vec<Visit>, ReflectError> {
-    let Maker::Search(make) = spec.options.info().maker else {
-        return Ok(Vec::new());
-    };
-    let stage = Stage::new(gpu, &spec.options, scene, size)?;
+    let stage = Stage::new(gpu, asked.common.stage, scene, size)?;
     let points_layout = points_layout(gpu);
-    let mut search = make(&Context {
+    let mut search = asked.recipe.make(&Context {
         gpu,
-        options: &spec.options,
         stage: &stage,
+        extends: asked.common.hidden == Hidden::Extend,
         points_layout: &points_layout,
         account: Account::Path,
     })?;
@@ -74,7 +69,7 @@ pub fn path(
     });
     let records = points.read_found(gpu, MOST).into_iter().skip(1);
     let visits = records.take_while(|record| record.distance == 1.0);
-    let visit = |record: crate::stage::data::Found| Visit {
+    let visit = |record: Found| Visit {
         at: record.at,
         level: record.state,
     };
@@ -83,9 +78,8 @@ pub fn path(
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::spec::parse;
     use crate::testing::{Searched, gpu_or_skip, scene};
+    use crate::{parse, path};
 
     #[test]
     fn paths_are_as_long_as_the_counted_steps_and_end_at_the_answer() {

@@ -9,18 +9,29 @@ use crate::error::ReflectError;
 use crate::gpu::{
     Gpu, Recorder, Slot, compute, group, layout, module, set_uniform, storage_bytes, uniform,
 };
+use crate::options::words;
 use crate::stage::Stage;
 use crate::stage::gbuffer::{GBuffer, MirrorsAlone};
 use crate::stage::points::Points;
-use crate::technique::Variant;
+use crate::stage::variant::Variant;
+
+words! {
+    /// Where a search starts.
+    pub(crate) enum Start {
+        /// The mirror's projected centre.
+        Center = "center",
+        /// Its projected bounding box's.
+        Bounds = "bounds",
+        /// The vertex's answer in the previous frame, where there is one; else the centre.
+        Previous = "previous",
+    }
+}
 
 /// Side of the pass's workgroups, in texels.
 const GROUP: u32 = 8;
 
 /// A search by a shader that reads the start texel as its group 3.
 pub(super) struct FromStart {
-    /// Each vertex starts at its last answer instead, where it has one.
-    from_previous: bool,
     starts: Starts,
     pipelines: Pipelines,
 }
@@ -29,12 +40,12 @@ impl FromStart {
     /// Of a program with an entry point `search`.
     pub(super) fn new(
         context: &Context<'_>,
+        start: Start,
         program: &str,
         features: &[&str],
     ) -> Result<Self, ReflectError> {
-        let starts = Starts::new(context)?;
+        let starts = Starts::new(context, start)?;
         Ok(Self {
-            from_previous: context.options.is("start", "previous"),
             pipelines: Pipelines::new(context, program, features, &starts.layout)?,
             starts,
         })
@@ -66,10 +77,6 @@ impl Search for FromStart {
         let on = &self.starts.gbuffer(stage).mirror_groups[mirror];
         (self.pipelines).record(frame, (stage, on), points, own, variant);
     }
-
-    fn uses_previous(&self) -> bool {
-        self.from_previous
-    }
 }
 
 /// The start texels of all mirrors, found anew in each frame.
@@ -83,10 +90,10 @@ struct Starts {
     alone: Option<MirrorsAlone>,
     nearest: wgpu::ComputePipeline,
     choose: wgpu::ComputePipeline,
-    mirrors: Vec<Start>,
+    mirrors: Vec<StartTexel>,
 }
 
-struct Start {
+struct StartTexel {
     /// Wanted image coordinates.
     wanted: wgpu::Buffer,
     /// Texel index, then the square of its distance from the wanted one.
@@ -95,16 +102,10 @@ struct Start {
 }
 
 impl Starts {
-    /// Reads the options `start`, `bounds` or anything else for the centre, and `hidden`.
-    fn new(context: &Context<'_>) -> Result<Self, ReflectError> {
-        let Context {
-            gpu,
-            options,
-            stage,
-            ..
-        } = context;
-        let from_bounds = options.is("start", "bounds");
-        let alone = (options.is("hidden", "extend")).then(|| MirrorsAlone::new(gpu, &stage.world));
+    fn new(context: &Context<'_>, start: Start) -> Result<Self, ReflectError> {
+        let Context { gpu, stage, .. } = context;
+        let from_bounds = start == Start::Bounds;
+        let alone = (context.extends).then(|| MirrorsAlone::new(gpu, &stage.world));
         let find = layout(gpu, "start found", &[Slot::Uniform, Slot::Write]);
         let read = layout(gpu, "start", &[Slot::Read]);
         let module = module(gpu, "start", &[])?;
@@ -117,13 +118,13 @@ impl Starts {
             let wanted = uniform(gpu, &start_point(stage, index, from_bounds));
             let texel = storage_bytes(gpu, &[0xff; 8]);
             let resources = [wanted.as_entire_binding(), texel.as_entire_binding()];
-            Start {
+            StartTexel {
                 find: group(gpu, &find, &resources),
                 wanted,
                 texel,
             }
         });
-        let mirrors: Vec<Start> = mirrors.collect();
+        let mirrors: Vec<StartTexel> = mirrors.collect();
         let texels = mirrors.iter().map(|start| start.texel.as_entire_binding());
         Ok(Self {
             groups: texels.map(|texel| group(gpu, &read, &[texel])).collect(),

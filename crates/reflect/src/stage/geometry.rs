@@ -1,9 +1,30 @@
 //! What the objects of a scene are on the GPU: one list of vertices, corners and materials for all.
 
 use catoptric_scene::{Mesh, Paint, Scene};
+use encase::ShaderType;
 use glam::{Vec2, Vec3};
 
-use crate::stage::data::{Corner, MaterialUniform};
+/// Twin of `Corner` in `shared/surface.wesl`.
+#[derive(Clone, Copy, Debug, ShaderType)]
+pub(crate) struct Corner {
+    pub uv: Vec2,
+    pub vertex: u32,
+    pub material: u32,
+    pub color: Vec3,
+    pub object: u32,
+}
+
+/// Twin of `Material` in `shared/surface.wesl`.
+#[derive(Clone, Copy, Debug, ShaderType)]
+pub(crate) struct MaterialUniform {
+    pub a: Vec3,
+    pub kind: u32,
+    pub b: Vec3,
+    pub cells: u32,
+    pub first_texel: u32,
+    pub width: u32,
+    pub height: u32,
+}
 
 /// All object geometry of a scene, flattened.
 #[derive(Debug, Default)]
@@ -84,5 +105,41 @@ impl Geometry {
             Paint::Vertex => material.kind = 3,
         }
         self.materials.push(material);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::assert_layout;
+
+    #[test]
+    fn records_lie_as_the_shaders_read_them() {
+        assert_layout!(
+            Corner {
+                uv,
+                vertex,
+                material,
+                color,
+                object
+            },
+            "primary",
+            &[],
+            "Corner"
+        );
+        assert_layout!(
+            MaterialUniform {
+                a,
+                kind,
+                b,
+                cells,
+                first_texel,
+                width,
+                height
+            },
+            "primary",
+            &[],
+            "Material"
+        );
     }
 }

@@ -2,14 +2,18 @@
 //! and the composite that puts the technique's reflections into the picture.
 
 pub(crate) mod composite;
-pub(crate) mod data;
+pub(crate) mod extent;
 pub(crate) mod gbuffer;
 mod geometry;
+pub(crate) mod mirror;
+pub(crate) mod options;
 pub(crate) mod points;
 pub(crate) mod primary;
 pub(crate) mod raster;
 #[cfg(test)]
 pub(crate) mod twin;
+pub(crate) mod variant;
+pub(crate) mod view;
 pub(crate) mod world;
 
 use catoptric_frame::{Frame, Image, Primary as PrimaryLayers, Reflected, Status};
@@ -18,15 +22,16 @@ use glam::Vec3;
 
 use crate::error::ReflectError;
 use crate::gpu::{Begin, Gpu, Recorder};
-use crate::spec::Options;
-use crate::technique::Variant;
+use crate::stage::variant::Variant;
 use composite::{Composite, Reflections};
 use gbuffer::GBuffer;
+use options::{StageOptions, Surface, Under};
 use primary::Primary;
 use world::World;
 
 /// The passes before and after a technique's own.
 pub(crate) struct Stage {
+    pub options: StageOptions,
     pub world: World,
     pub primary: Primary,
     pub gbuffer: GBuffer,
@@ -35,21 +40,21 @@ pub(crate) struct Stage {
 }
 
 impl Stage {
-    /// Reads the options that every technique has: `gbuffer`, `under`.
     pub(crate) fn new(
         gpu: &Gpu,
-        options: &Options,
+        options: StageOptions,
         scene: &Scene,
         size: [u32; 2],
     ) -> Result<Self, ReflectError> {
-        let exact = options.is("gbuffer", "exact");
-        let dark = options.is("under", "dark");
+        let exact = options.gbuffer == Surface::Exact;
+        let dark = options.under == Under::Dark;
         let world = World::new(gpu, scene, size, exact, dark)?;
         let primary = Primary::new(gpu, &world)?;
         let gbuffer = GBuffer::new(gpu, &world)?;
         let reflections = Reflections::new(gpu, size);
         let composite = Composite::new(gpu, &world, &primary, &gbuffer, &reflections)?;
         Ok(Self {
+            options,
             world,
             primary,
             gbuffer,

@@ -3,11 +3,56 @@
 use catoptric_frame::{VertexResult, VertexState, Work};
 use encase::internal::CreateFrom;
 use encase::{ShaderSize, ShaderType, StorageBuffer};
+use glam::{Vec2, Vec3};
 
 use crate::gpu::{
     Gpu, Slot, dispatch_size, group, layout, set_storage, storage_bytes, storage_zeros,
 };
-use crate::stage::data::{Effort, Found, Range};
+
+/// Twin of `Range` in `shared/points.wesl`: which points of a batch are searched.
+#[derive(Clone, Copy, Debug, ShaderType)]
+pub(crate) struct Range {
+    pub first: u32,
+    pub count: u32,
+    pub warm: u32,
+}
+
+/// Twin of `Effort` in `shared/points.wesl`: what the search of one point took.
+#[derive(Clone, Copy, Debug, ShaderType)]
+pub(crate) struct Effort {
+    pub steps: u32,
+    pub evaluations: u32,
+    pub node_tests: u32,
+    pub flags: u32,
+}
+
+impl Effort {
+    /// `flags`: the hierarchy left a gap here.
+    pub const MET_HOLE: u32 = 1;
+    /// `flags`: the enlargement repair was used.
+    pub const ENLARGED: u32 = 2;
+    /// `flags`: the search failed and its answer is a stand-in.
+    pub const STAND_IN: u32 = 4;
+}
+
+/// Twin of `Found` in `shared/points.wesl`.
+#[derive(Clone, Copy, Debug, ShaderType)]
+pub(crate) struct Found {
+    pub position: Vec3,
+    pub state: u32,
+    pub at: Vec2,
+    pub distance: f32,
+    pub image: Vec3,
+}
+
+impl Found {
+    /// `state`: the point has this reflection point.
+    pub const FOUND: u32 = 0;
+    /// `state`: behind the mirror's tangent plane at the point found.
+    pub const HIDDEN: u32 = 1;
+    /// `state`: the search has no answer.
+    pub const FAILED: u32 = 2;
+}
 
 /// Threads of a search's workgroup; one thread a point.
 const GROUP: u32 = 64;
@@ -213,4 +258,38 @@ pub(crate) fn read<T: ShaderType + ShaderSize + CreateFrom>(
     StorageBuffer::new(bytes)
         .create()
         .expect("the buffer holds whole records")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::assert_layout;
+
+    #[test]
+    fn records_lie_as_the_shaders_read_them() {
+        assert_layout!(Range { first, count, warm }, "linear", &[], "Range");
+        assert_layout!(
+            Found {
+                position,
+                state,
+                at,
+                distance,
+                image
+            },
+            "linear",
+            &[],
+            "Found"
+        );
+        assert_layout!(
+            Effort {
+                steps,
+                evaluations,
+                node_tests,
+                flags
+            },
+            "linear",
+            &["count"],
+            "Effort"
+        );
+    }
 }

@@ -4,8 +4,8 @@ use crate::error::ReflectError;
 use crate::gpu::{
     Begin, DEPTH, FLOAT4, Gpu, RasterTargets, Recorder, module, raster, target, view,
 };
+use crate::stage::variant::Variant;
 use crate::stage::world::World;
-use crate::technique::Variant;
 
 /// The pass `primary` and its targets.
 pub(crate) struct Primary {

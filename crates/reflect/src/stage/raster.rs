@@ -2,9 +2,9 @@
 
 use crate::error::ReflectError;
 use crate::gpu::{Begin, Gpu, RasterTargets, Recorder, Slot, layout, module, raster, view};
-use crate::spec::Options;
 use crate::stage::Stage;
-use crate::technique::Variant;
+use crate::stage::options::{Depth, Hidden, SearchOptions, Show};
+use crate::stage::variant::Variant;
 
 /// The pass `virtual`.
 pub(crate) struct Raster {
@@ -17,25 +17,24 @@ pub(crate) struct Raster {
 impl Raster {
     /// `program` has the entries `vertex`, `color` and `layers`, knows the features
     /// `virtual_depth`, `extend`, `wireframe`, `levels` and those given, and reads `slots` as group
-    /// 3. Reads the options `depth`, `hidden` and `show`.
+    /// 3.
     pub(crate) fn new(
         gpu: &Gpu,
-        options: &Options,
+        options: SearchOptions,
         stage: &Stage,
         program: &str,
         features: &[&str],
         slots: &[Slot],
     ) -> Result<Self, ReflectError> {
         let of_options = [
-            ("depth", "virtual", "virtual_depth"),
-            ("hidden", "extend", "extend"),
-            ("show", "wireframe", "wireframe"),
-            ("show", "levels", "levels"),
+            (options.depth == Depth::Virtual, "virtual_depth"),
+            (options.hidden == Hidden::Extend, "extend"),
+            (options.show == Show::Wireframe, "wireframe"),
+            (options.show == Show::Levels, "levels"),
         ];
         let of_options = of_options
             .into_iter()
-            .filter(|(option, value, _)| options.is(option, value));
-        let of_options = of_options.map(|(_, _, feature)| feature);
+            .filter_map(|(on, name)| on.then_some(name));
         let features: Vec<_> = of_options.chain(features.iter().copied()).collect();
         let module = module(gpu, program, &features)?;
         let own_layout = layout(gpu, program, slots);

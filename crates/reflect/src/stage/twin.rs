@@ -4,7 +4,7 @@
 
 use glam::{IVec2, Vec3, Vec4};
 
-use crate::gpu::{Gpu, Recorder};
+use crate::gpu::Gpu;
 use crate::stage::Stage;
 use crate::stage::gbuffer::{self, MirrorsAlone};
 

@@ -8,8 +8,10 @@ use wgpu::util::DeviceExt;
 
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, Slot, group, layout, set_uniform, storage, storage_bytes, uniform};
-use crate::stage::data::{Found, MirrorUniform, ViewUniform};
-use crate::stage::geometry::Geometry;
+use crate::stage::geometry::{Corner, Geometry};
+use crate::stage::mirror::MirrorUniform;
+use crate::stage::points::Found;
+use crate::stage::view::ViewUniform;
 
 /// A scene on the GPU, for one image size.
 pub(crate) struct World {
@@ -61,7 +63,7 @@ impl World {
         let geometry = Geometry::new(scene);
         gpu.check_binding(
             [
-                geometry.corners.len() as u64 * crate::stage::data::Corner::SHADER_SIZE.get(),
+                geometry.corners.len() as u64 * Corner::SHADER_SIZE.get(),
                 geometry.texels.len() as u64 * 16,
                 geometry.positions.len() as u64 * Found::SHADER_SIZE.get(),
             ]

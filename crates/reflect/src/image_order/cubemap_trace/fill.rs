@@ -6,7 +6,7 @@ use crate::image_order::ImageOrder;
 use crate::image_order::per_pixel::PerPixel;
 use crate::image_order::ray_trace::RayTrace;
 use crate::stage::Stage;
-use crate::technique::Variant;
+use crate::stage::variant::Variant;
 
 /// The pass `fill`, and what it reads; where rays are traced instead it only takes over what is
 /// resolved.

@@ -7,7 +7,7 @@ use crate::gpu::{Begin, Gpu, Recorder, Slot, compute, group, layout, module, sto
 use crate::image_order::draw_reflections;
 use crate::spec::Options;
 use crate::stage::Stage;
-use crate::technique::Variant;
+use crate::stage::variant::Variant;
 
 use super::march;
 

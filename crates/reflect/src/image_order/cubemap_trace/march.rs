@@ -7,7 +7,7 @@ use crate::gpu::{Gpu, Recorder, module};
 use crate::image_order::per_pixel::{Pass, PerPixel};
 use crate::spec::Options;
 use crate::stage::Stage;
-use crate::technique::Variant;
+use crate::stage::variant::Variant;
 
 /// The pass `trace`.
 pub(crate) struct March {
@@ -41,7 +41,10 @@ pub(crate) fn features(options: &Options) -> Vec<&'static str> {
     on("background", options.is("unresolved", "background"));
     on("environment", options.is("unresolved", "environment"));
     let later = ["neighbours", "trace"];
-    on("later", later.contains(&options.text("unresolved")));
+    on(
+        "later",
+        later.contains(&options.text("unresolved").as_str()),
+    );
     features
 }
 

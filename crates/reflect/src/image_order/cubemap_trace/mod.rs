@@ -30,8 +30,9 @@ use crate::error::ReflectError;
 use crate::gpu::{FLOAT4, Gpu, Recorder, Slot, group, target, uniform, view};
 use crate::spec::Options;
 use crate::stage::Stage;
-use crate::stage::data::diagonal;
-use crate::technique::{DistanceLevel, Variant};
+use crate::stage::extent::diagonal;
+use crate::stage::variant::Variant;
+use crate::technique::DistanceLevel;
 
 /// Twin of `Trace` in `shared/rays.wesl`.
 #[derive(Clone, Copy, Debug, ShaderType)]
@@ -77,7 +78,7 @@ pub(crate) fn objection(options: &Options, scene: &Scene) -> Option<String> {
     let compute = options.is("stage", "compute");
     let needs = |key: &str, values: &[&str]| {
         let value = options.text(key);
-        (compute && !values.contains(&value)).then(|| {
+        (compute && !values.contains(&value.as_str())).then(|| {
             format!(
                 "stage=compute has no {key}={value}, only {}",
                 values.join(", ")
@@ -258,10 +259,6 @@ impl ImageOrder for CubemapTrace {
             skips: mean(&traced.skips),
             ..Work::default()
         }
-    }
-
-    fn may_be_unresolved(&self) -> bool {
-        true
     }
 
     fn distance_levels(&self, gpu: &Gpu, stage: &Stage) -> Option<Vec<DistanceLevel>> {

@@ -16,7 +16,7 @@ use crate::gpu::{FLOAT4, Gpu, target, view};
 use crate::image_order::cubemaps::{Wanted, maps_layout};
 use crate::spec::Options;
 use crate::stage::Stage;
-use crate::technique::Variant;
+use crate::stage::variant::Variant;
 
 /// Candidates for each mirror.
 const CANDIDATES: usize = 16;
@@ -45,7 +45,7 @@ pub(crate) fn places(
     let mut rng = Random::new(SEED);
     let mut candidates: Vec<Vec<DVec3>> = Vec::new();
     for mirror in &scene.mirrors {
-        let count = match options.text("placement") {
+        let count = match options.text("placement").as_str() {
             "random" => wanted,
             _ => CANDIDATES.max(wanted),
         };
@@ -196,7 +196,7 @@ impl<'a> Trial<'a> {
         let [width, height] = stage.world.size;
         let scale = f64::from(TRIAL_PIXELS) / f64::from(width.max(height));
         let size = [width, height].map(|side| ((f64::from(side) * scale) as u32).max(1));
-        let stage = Stage::new(gpu, options, &stage.world.scene, size)?;
+        let stage = Stage::new(gpu, stage.options, &stage.world.scene, size)?;
         let own_layout = maps_layout(gpu, "trial", MORE);
         // Where any sign change counts, the first one must be a certain one.
         let mut features = vec!["continuous"];

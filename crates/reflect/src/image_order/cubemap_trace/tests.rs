@@ -6,10 +6,9 @@ use catoptric_scene::Scene;
 use super::{MORE, MirrorMaps, trace_uniform};
 use crate::gpu::Gpu;
 use crate::image_order::cubemaps::{FACES, Wanted, maps_layout};
-use crate::spec::parse;
-use crate::stage::Stage;
+use crate::parse;
 use crate::technique::Output;
-use crate::testing::{gpu_or_skip, scene};
+use crate::testing::{gpu_or_skip, scene, stage};
 
 const SIZE: [u32; 2] = [80, 60];
 
@@ -150,7 +149,7 @@ fn maps_stand_where_the_scene_says() {
     let above = center + 1.5 * glam::DVec3::Y;
     scene.mirrors[0].cubemaps = vec![above, center];
     assert_eq!(reason(&scene, &spec), "");
-    let stage = Stage::new(&gpu, &spec.options, &scene, SIZE).expect("fits the device");
+    let stage = stage(&gpu, &scene, SIZE);
     let places = super::placement::places(&gpu, &spec.options, &stage).expect("fits the device");
     assert_eq!(places, [[above, center]]);
     // Where the maps show the mirror, they must see it from outside.
@@ -252,7 +251,7 @@ fn the_pyramid_is_that_of_the_cpu() {
     let Some(gpu) = gpu_or_skip() else { return };
     let scene = scene("sphere-objects-1k");
     let options = parse("cubemap-trace").expect("a technique").options;
-    let stage = Stage::new(&gpu, &options, &scene, SIZE).expect("fits the device");
+    let stage = stage(&gpu, &scene, SIZE);
     let wanted = Wanted {
         size: 32,
         centers: vec![scene.mirrors[0].shape.center()],

@@ -7,8 +7,7 @@ use naga::valid::{Capabilities, ValidationFlags, Validator};
 
 use super::march;
 use crate::gpu::shaders::tests::parsed;
-use crate::registry::Values;
-use crate::spec::parse;
+use crate::{Values, parse};
 
 /// Options that the shaders know, beside those that are one of some words.
 const BOUNCES: &str = "bounces=2";

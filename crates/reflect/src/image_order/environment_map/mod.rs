@@ -12,7 +12,7 @@ use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder, group, module};
 use crate::spec::Options;
 use crate::stage::Stage;
-use crate::technique::Variant;
+use crate::stage::variant::Variant;
 
 struct EnvironmentMap {
     /// The maps are drawn anew in every frame.
@@ -26,7 +26,7 @@ struct EnvironmentMap {
 
 /// Where a mirror's map is taken from, world space.
 fn center(options: &Options, mirror: &Mirror) -> DVec3 {
-    match options.text("placement") {
+    match options.text("placement").as_str() {
         "scene" => mirror.cubemaps[0],
         _ => mirror.shape.center(),
     }
@@ -116,7 +116,7 @@ impl ImageOrder for EnvironmentMap {
 
 #[cfg(test)]
 mod tests {
-    use crate::spec::parse;
+    use crate::parse;
     use crate::testing::{gpu_or_skip, scene};
     use crate::{Support, supports};
 

@@ -7,58 +7,71 @@ use catoptric_frame::Work;
 use catoptric_scene::{Scene, Shape, View};
 use glam::DVec3;
 
-use super::{ImageOrder, draw_reflections};
+use super::{ImageOrder, Recipe, draw_reflections};
 use crate::error::ReflectError;
 use crate::gpu::{
     Begin, Gpu, RasterTargets, Recorder, group, module, raster, set_uniform, uniform,
 };
-use crate::spec::Options;
+use crate::options::options;
 use crate::stage::Stage;
-use crate::stage::data::ViewUniform;
-use crate::technique::Variant;
+use crate::stage::variant::Variant;
+use crate::stage::view::ViewUniform;
+use crate::technique::{Info, Named};
 
-struct Planar {
+options! {
+    pub(crate) struct Planar {}
+}
+
+impl Named for Planar {
+    const INFO: Info = Info {
+        name: "planar",
+        what: "the scene from the mirrored eye, flat mirrors only",
+        paper: "baseline",
+    };
+}
+
+impl Recipe for Planar {
+    /// There is no mirrored eye for a mirror that is not flat.
+    fn objection(&self, scene: &Scene) -> Option<String> {
+        let mut mirrors = scene.mirrors.iter();
+        let curved = mirrors.find(|mirror| !matches!(mirror.shape, Shape::Plane { .. }));
+        curved.map(|mirror| format!("mirror `{}` is not a plane", mirror.name))
+    }
+
+    fn make(&self, gpu: &Gpu, stage: &Stage) -> Result<Box<dyn ImageOrder>, ReflectError> {
+        let world = &stage.world;
+        let module = module(gpu, "planar", &[])?;
+        let layouts = [
+            Some(&world.view_layout),
+            Some(&stage.gbuffer.mirror_layout),
+            Some(&world.surface_layout),
+        ];
+        let pipeline = |entry, colors| {
+            let targets = RasterTargets {
+                colors,
+                depth: true,
+            };
+            raster(gpu, &module, entry, targets, &layouts, &[])
+        };
+        let views = mirrored_views(stage).map(|view| {
+            let buffer = uniform(gpu, &view);
+            let group = group(gpu, &world.view_layout, &[buffer.as_entire_binding()]);
+            (buffer, group)
+        });
+        Ok(Box::new(Mirrored {
+            color: pipeline("color", 1),
+            layers: pipeline("layers", 2),
+            views: views.collect(),
+        }))
+    }
+}
+
+/// The technique, ready for a scene.
+struct Mirrored {
     color: wgpu::RenderPipeline,
     layers: wgpu::RenderPipeline,
     /// View uniform of each mirror's mirrored eye, and the group that holds it.
     views: Vec<(wgpu::Buffer, wgpu::BindGroup)>,
-}
-
-pub(crate) fn make(
-    gpu: &Gpu,
-    _: &Options,
-    stage: &Stage,
-) -> Result<Box<dyn ImageOrder>, ReflectError> {
-    let world = &stage.world;
-    let module = module(gpu, "planar", &[])?;
-    let layouts = [
-        Some(&world.view_layout),
-        Some(&stage.gbuffer.mirror_layout),
-        Some(&world.surface_layout),
-    ];
-    let pipeline = |entry, colors| {
-        let targets = RasterTargets {
-            colors,
-            depth: true,
-        };
-        raster(gpu, &module, entry, targets, &layouts, &[])
-    };
-    let views = mirrored_views(stage).map(|view| {
-        let buffer = uniform(gpu, &view);
-        let group = group(gpu, &world.view_layout, &[buffer.as_entire_binding()]);
-        (buffer, group)
-    });
-    Ok(Box::new(Planar {
-        color: pipeline("color", 1),
-        layers: pipeline("layers", 2),
-        views: views.collect(),
-    }))
-}
-
-/// Why a scene has no mirrored eye: a mirror that is not flat.
-pub(crate) fn objection(_: &Options, scene: &Scene) -> Option<String> {
-    let curved = (scene.mirrors.iter()).find(|mirror| !matches!(mirror.shape, Shape::Plane { .. }));
-    curved.map(|mirror| format!("mirror `{}` is not a plane", mirror.name))
 }
 
 fn mirrored_views(stage: &Stage) -> impl Iterator<Item = ViewUniform> {
@@ -84,7 +97,7 @@ fn mirrored(view: &View, point: DVec3, normal: DVec3) -> View {
     }
 }
 
-impl ImageOrder for Planar {
+impl ImageOrder for Mirrored {
     fn update(&mut self, gpu: &Gpu, stage: &Stage) -> Result<(), ReflectError> {
         for ((buffer, _), view) in self.views.iter().zip(mirrored_views(stage)) {
             set_uniform(gpu, buffer, &view);

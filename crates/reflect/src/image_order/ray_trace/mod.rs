@@ -18,7 +18,8 @@ use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder, Slot, compute, group, layout, module, storage_zeros, view};
 use crate::spec::Options;
 use crate::stage::Stage;
-use crate::technique::{Built, Variant};
+use crate::stage::variant::Variant;
+use crate::technique::Built;
 
 use hardware::Hardware;
 use wide::Wide;
@@ -243,8 +244,8 @@ impl ImageOrder for RayTrace {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spec::parse;
-    use crate::testing::{gpu_or_skip, scene};
+    use crate::parse;
+    use crate::testing::{gpu_or_skip, scene, stage};
 
     /// Object ids at the mirror's pixels.
     fn ids(gpu: &Gpu, technique: &RayTrace, stage: &Stage) -> Vec<u32> {
@@ -260,9 +261,8 @@ mod tests {
     #[test]
     fn the_picture_comes_from_the_triangles_in_the_hierarchy() {
         let Some(gpu) = gpu_or_skip() else { return };
-        let spec = parse("ray-trace").expect("a technique");
         let scene = scene("sphere-square");
-        let stage = Stage::new(&gpu, &spec.options, &scene, [96, 72]).expect("fits the device");
+        let stage = stage(&gpu, &scene, [96, 72]);
         let wide = Wide::new(&gpu, &stage.world.scene).expect("fits the device");
         let structure = Structure::Wide(wide);
         let technique = RayTrace::new(&gpu, &stage, structure, false, None).expect("links");

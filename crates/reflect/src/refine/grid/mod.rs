@@ -6,22 +6,84 @@
 //! vertices than vertices is searched directly.
 
 mod cells;
+#[cfg(test)]
+mod tests;
 
 use catoptric_frame::{Triangles, VertexResult};
 use catoptric_scene::{Scene, Shape};
 use glam::{DVec3, Vec3};
 
-use super::{Context, Refine};
+use super::{Context, Recipe, Refine};
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder, Slot, compute, group, layout, module, storage, storage_bytes};
+use crate::options::options;
 use crate::search::Search;
-use crate::spec::Options;
 use crate::stage::Stage;
-use crate::stage::data::GridPlace;
+use crate::stage::options::Depth;
 use crate::stage::points::{Efforts, Points};
 use crate::stage::raster::Raster;
-use crate::technique::Variant;
+use crate::stage::variant::Variant;
+use crate::technique::{Info, Named, Properties};
 use cells::{Cells, Pose};
+use encase::ShaderType;
+
+options! {
+    pub(crate) struct Grid {
+        /// grid vertices as a share of the mesh's; 1 searches every vertex of the mesh
+        fraction: f64 = 0.1 in 0.0..=1.0,
+        /// edge of the cells in world units, whatever their number; 0 goes by the fraction
+        cell: f64 = 0.0 in 0.0..=1e6,
+    }
+}
+
+impl Named for Grid {
+    const INFO: Info = Info {
+        name: "+grid",
+        what: "interpolates vertices between the virtual images of a grid around each mesh",
+        paper: "Estalella et al. 2005",
+    };
+}
+
+impl Grid {
+    /// Whether every mesh is searched directly: with as many grid vertices as vertices, nothing is
+    /// interpolated.
+    fn is_bypassed(&self) -> bool {
+        self.cell <= 0.0 && self.fraction >= 1.0
+    }
+}
+
+impl Recipe for Grid {
+    fn properties(&self) -> Properties {
+        Properties {
+            interpolates: true,
+            ..Properties::NONE
+        }
+    }
+
+    /// A vertex that is reflected needs those of its cell's corners too that are not. Where there is
+    /// no cell, it is the search as asked for.
+    fn wants_continued(&self) -> bool {
+        !self.is_bypassed()
+    }
+
+    fn make(&self, context: &Context<'_>) -> Result<Box<dyn Refine>, ReflectError> {
+        Ok(Box::new(Interpolation::new(self, context)?))
+    }
+}
+
+/// Twin of `Place` in `grid.wesl`: where a vertex of the scene lies among what is searched.
+#[derive(Clone, Copy, Debug, ShaderType)]
+struct Place {
+    /// Coordinates in the cell, 0 to 1.
+    local: Vec3,
+    /// A cell, or [`Place::DIRECT`] + a searched point.
+    cell: u32,
+}
+
+impl Place {
+    /// `cell`: the vertex is searched itself.
+    const DIRECT: u32 = 1 << 31;
+}
 
 /// A mesh with its grid.
 struct Mesh {
@@ -29,14 +91,15 @@ struct Mesh {
     grid: Option<(Cells, Pose)>,
 }
 
-struct Grid {
+/// The refinement, ready for a scene.
+struct Interpolation {
     raster: Raster,
     interpolate: wgpu::ComputePipeline,
     layout: wgpu::BindGroupLayout,
     points_layout: wgpu::BindGroupLayout,
     /// One an object.
     meshes: Vec<Mesh>,
-    /// A [`GridPlace`] a vertex of the scene.
+    /// A [`Place`] a vertex of the scene.
     places: wgpu::Buffer,
     mirrors: Vec<OnMirror>,
     /// What the mirrors' searches were made for.
@@ -60,53 +123,13 @@ struct OnMirror {
 /// Corner of a cell that is inside the mirror; `DROPPED` in `grid.wesl`.
 const DROPPED: u32 = u32::MAX;
 
-/// Whether every mesh is searched directly: with as many grid vertices as vertices, nothing is
-/// interpolated.
-pub(super) fn is_bypassed(options: &Options) -> bool {
-    options.number("cell") <= 0.0 && options.number("fraction") >= 1.0
-}
-
-pub(crate) fn make(context: &Context<'_>) -> Result<Box<dyn Refine>, ReflectError> {
-    let Context { gpu, stage, .. } = context;
-    let options = context.options.expect("a refinement has options");
-    let scene = stage.world.scene.clone();
-    let meshes: Vec<_> = (scene.objects.iter())
-        .map(|object| Mesh::new(&object.mesh.positions, options))
-        .collect();
-    // Between images in space there are only images in space.
-    let drawn = match is_bypassed(options) {
-        true => context.search_options.clone(),
-        false => context.search_options.with("depth", "virtual"),
-    };
-    let raster = Raster::new(gpu, &drawn, stage, "virtual", &[], &[Slot::Read])?;
-    let read = Slot::Read;
-    let layout = layout(gpu, "grid", &[read, read, read, read, read, Slot::Write]);
-    let continued = context.searched_options.is("hidden", "extend");
-    let continued = continued.then_some("continued");
-    let module = module(gpu, "grid", continued.as_slice())?;
-    let layouts = [Some(&stage.world.view_layout), Some(&layout)];
-    let mut grid = Grid {
-        interpolate: compute(gpu, &module, "interpolate", &layouts),
-        raster,
-        layout,
-        points_layout: context.points_layout.clone(),
-        places: storage(gpu, &places(&meshes, &scene)),
-        meshes,
-        mirrors: Vec::new(),
-        scene,
-        fresh: true,
-    };
-    grid.mirrors = grid.searches(gpu, stage);
-    Ok(Box::new(grid))
-}
-
 impl Mesh {
-    fn new(positions: &[Vec3], options: &Options) -> Self {
-        let edge = options.number("cell");
+    fn new(positions: &[Vec3], options: &Grid) -> Self {
+        let edge = options.cell;
         let cells = if edge > 0.0 {
             (!positions.is_empty()).then(|| Cells::by_edge(positions, edge))
         } else {
-            Cells::by_fraction(positions, options.number("fraction"))
+            Cells::by_fraction(positions, options.fraction)
         };
         Self {
             grid: cells.zip(Pose::new(positions)),
@@ -116,13 +139,13 @@ impl Mesh {
 
 /// Where each vertex of the scene is found. Searched points are numbered object by object: first
 /// all that are vertices themselves, then those of the grids.
-fn places(meshes: &[Mesh], scene: &Scene) -> Vec<GridPlace> {
+fn places(meshes: &[Mesh], scene: &Scene) -> Vec<Place> {
     let mut places = Vec::new();
     let (mut first_cell, mut direct) = (0, 0);
     for (mesh, object) in meshes.iter().zip(&scene.objects) {
         match &mesh.grid {
             Some((cells, _)) => {
-                let place = |(cell, local): &(u32, Vec3)| GridPlace {
+                let place = |(cell, local): &(u32, Vec3)| Place {
                     local: *local,
                     cell: first_cell + cell,
                 };
@@ -131,9 +154,9 @@ fn places(meshes: &[Mesh], scene: &Scene) -> Vec<GridPlace> {
             }
             None => {
                 for _ in &object.mesh.positions {
-                    places.push(GridPlace {
+                    places.push(Place {
                         local: Vec3::ZERO,
-                        cell: GridPlace::DIRECT | direct,
+                        cell: Place::DIRECT | direct,
                     });
                     direct += 1;
                 }
@@ -167,7 +190,39 @@ impl<'a> Solid<'a> {
     }
 }
 
-impl Grid {
+impl Interpolation {
+    fn new(options: &Grid, context: &Context<'_>) -> Result<Self, ReflectError> {
+        let Context { gpu, stage, .. } = context;
+        let scene = stage.world.scene.clone();
+        let meshes: Vec<_> = (scene.objects.iter())
+            .map(|object| Mesh::new(&object.mesh.positions, options))
+            .collect();
+        let mut drawn = context.drawn;
+        if !options.is_bypassed() {
+            // Between images in space there are only images in space.
+            drawn.depth = Depth::Virtual;
+        }
+        let raster = Raster::new(gpu, drawn, stage, "virtual", &[], &[Slot::Read])?;
+        let read = Slot::Read;
+        let layout = layout(gpu, "grid", &[read, read, read, read, read, Slot::Write]);
+        let continued = context.continued.then_some("continued");
+        let module = module(gpu, "grid", continued.as_slice())?;
+        let layouts = [Some(&stage.world.view_layout), Some(&layout)];
+        let mut made = Self {
+            interpolate: compute(gpu, &module, "interpolate", &layouts),
+            raster,
+            layout,
+            points_layout: context.points_layout.clone(),
+            places: storage(gpu, &places(&meshes, &scene)),
+            meshes,
+            mirrors: Vec::new(),
+            scene,
+            fresh: true,
+        };
+        made.mirrors = made.searches(gpu, stage);
+        Ok(made)
+    }
+
     /// Makes what is searched on each mirror, for objects and mirrors as they stand.
     fn searches(&self, gpu: &Gpu, stage: &Stage) -> Vec<OnMirror> {
         let shapes = self.scene.mirrors.iter().map(|mirror| &mirror.shape);
@@ -234,7 +289,7 @@ impl Grid {
     }
 }
 
-impl Refine for Grid {
+impl Refine for Interpolation {
     fn update(&mut self, gpu: &Gpu, stage: &Stage) {
         let now = &stage.world.scene;
         let objects = now.objects.iter().zip(&self.scene.objects);
@@ -281,7 +336,7 @@ impl Refine for Grid {
             });
     }
 
-    fn vertices(&self, gpu: &Gpu, stage: &Stage, _search: &dyn Search) -> Vec<VertexResult> {
+    fn vertices(&self, gpu: &Gpu, stage: &Stage) -> Vec<VertexResult> {
         let places: Vec<_> = stage.world.places().collect();
         let mirrors = stage.world.mirrors.iter().zip(&self.mirrors);
         mirrors
@@ -320,184 +375,5 @@ impl Refine for Grid {
             by_level: vec![drawn],
             unfinished: 0,
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use catoptric_frame::VertexState;
-    use glam::Vec2;
-
-    use super::*;
-    use crate::spec::parse;
-    use crate::technique::Prepared;
-    use crate::testing::{gpu_or_skip, scene};
-    use crate::{Output, prepare};
-
-    /// All but exact.
-    const SEARCH: &str = "reflector-cubemap(iterations=60,size=128,hidden=extend,depth=virtual)";
-    /// Of the pictures, which do not matter: reflection points are found without them.
-    const SIZE: [u32; 2] = [32, 32];
-
-    fn ready<'g>(gpu: &'g Gpu, scene: &Scene, technique: &str) -> Prepared<'g> {
-        let spec = parse(technique).expect("a technique");
-        prepare(gpu, &spec, scene, SIZE).expect("fits the device")
-    }
-
-    fn render(gpu: &Gpu, scene: &Scene, refinement: &str) -> Output {
-        let technique = format!("{SEARCH}{refinement}");
-        ready(gpu, scene, &technique).render().expect("renders")
-    }
-
-    /// State and image coordinates of every vertex.
-    fn answers(output: &Output) -> Vec<(VertexState, Vec2)> {
-        let vertices = output.vertices.iter().flatten();
-        vertices.map(|vertex| (vertex.state, vertex.at)).collect()
-    }
-
-    #[test]
-    fn fraction_one_bypasses_the_grid_and_a_tenth_searches_a_tenth() {
-        let Some(gpu) = gpu_or_skip() else {
-            return;
-        };
-        let scene = scene("sphere-objects-1k");
-        let plain = render(&gpu, &scene, "");
-        let bypassed = render(&gpu, &scene, "+grid(fraction=1)");
-        assert_eq!(answers(&plain), answers(&bypassed));
-        assert_eq!(
-            (plain.searched, plain.work),
-            (bypassed.searched, bypassed.work)
-        );
-        // Whatever the search was asked for.
-        for search in ["linear", "newton"] {
-            let spec = |refinement| parse(&format!("{search}{refinement}")).expect("a technique");
-            let [alone, bypassed] = ["", "+grid(fraction=1)"].map(|refinement| {
-                let prepared = prepare(&gpu, &spec(refinement), &scene, [80, 60]);
-                prepared
-                    .expect("fits the device")
-                    .render()
-                    .expect("renders")
-            });
-            assert_eq!(alone.frame.color, bypassed.frame.color, "{search}");
-        }
-        let tenth = render(&gpu, &scene, "+grid(fraction=0.1)");
-        let share = tenth.searched as f64 / plain.searched as f64;
-        // Objects of a few dozen vertices cannot come down to a tenth.
-        assert!((0.05..0.3).contains(&share), "{share}");
-    }
-
-    #[test]
-    fn interpolation_is_as_exact_as_the_cells_are_small() {
-        // Mean offsets of a prototype in pixels of a 512 × 512 picture, by the edge of the cells in
-        // radii. It had vertices around the sphere, not those that nearly touch it, where cells
-        // reach into the mirror: hence those from a radius away.
-        const MEANS: [(f64, f32); 4] = [(0.1, 0.04), (0.25, 0.2), (0.5, 0.72), (1.0, 2.2)];
-        let Some(gpu) = gpu_or_skip() else {
-            return;
-        };
-        let scene = scene("prototype-sphere");
-        let exact = answers(&render(&gpu, &scene, ""));
-        let far: Vec<_> = (scene.objects[0].mesh.positions.iter())
-            .map(|position| position.length() > 2.2)
-            .collect();
-        for (edge, mean) in MEANS {
-            let found = render(&gpu, &scene, &format!("+grid(cell={edge})"));
-            let pairs = exact.iter().zip(answers(&found)).zip(&far);
-            let gaps = pairs.filter(|(_, far)| **far);
-            let gaps: Vec<_> = gaps.map(|((a, b), _)| a.1.distance(b.1) * 16.0).collect();
-            let found = gaps.iter().sum::<f32>() / gaps.len() as f32;
-            assert!(gaps.len() > 500, "{} vertices", gaps.len());
-            assert!(found < mean, "{found} px in cells of {edge}");
-        }
-    }
-
-    #[test]
-    fn drawing_is_in_space_whatever_the_depth_option() {
-        let Some(gpu) = gpu_or_skip() else {
-            return;
-        };
-        let scene = scene("sphere-objects-1k");
-        let draw = |technique: &str| {
-            let output = ready(&gpu, &scene, technique).render().expect("renders");
-            let reflected = output.frame.reflected.expect("all layers");
-            (reflected.id, reflected.position)
-        };
-        let thesis = draw("linear(depth=thesis)+grid");
-        assert_eq!(thesis, draw("linear(depth=virtual)+grid"));
-        // What it would have been.
-        assert_ne!(draw("linear(depth=thesis)"), draw("linear(depth=virtual)"));
-    }
-
-    #[test]
-    fn hidden_corners_are_continued_though_hidden_triangles_are_dropped() {
-        // Interpolation does not depend on what is drawn; only which vertices count as hidden does.
-        let Some(gpu) = gpu_or_skip() else {
-            return;
-        };
-        let scene = scene("sphere-touching");
-        let with = |hidden: &str| {
-            let technique =
-                format!("reflector-cubemap(iterations=60,size=128,hidden={hidden})+grid");
-            let output = ready(&gpu, &scene, &technique).render().expect("renders");
-            answers(&output)
-        };
-        assert_eq!(with("drop"), with("extend"));
-        // The hierarchy cannot continue them: all that a hidden corner touches is dropped.
-        let hidden = |answers: Vec<(VertexState, Vec2)>| {
-            let states = answers.into_iter().map(|(state, _)| state);
-            states.filter(|state| *state == VertexState::Hidden).count()
-        };
-        let hierarchy = ready(&gpu, &scene, "ray-hierarchy(repair=enlarge)+grid").render();
-        let hierarchy = hidden(answers(&hierarchy.expect("renders")));
-        assert!(hierarchy > hidden(with("drop")), "{hierarchy}");
-    }
-
-    #[test]
-    fn corners_inside_the_mirror_are_left_out_and_counted() {
-        let Some(gpu) = gpu_or_skip() else {
-            return;
-        };
-        let scene = scene("sphere-touching");
-        let touching = render(&gpu, &scene, "+grid");
-        assert_eq!(touching.notes.len(), 1, "{:?}", touching.notes);
-        assert!(touching.notes[0].contains("inside mirror `ball`"));
-        // A vertex that has lost all corners is hidden inside, and none is lost.
-        let positions = scene
-            .objects
-            .iter()
-            .flat_map(|object| &object.mesh.positions);
-        let mut hidden_inside = 0;
-        for ((state, _), position) in answers(&touching).iter().zip(positions) {
-            assert_ne!(*state, VertexState::Failed, "{position}");
-            let inside = scene.mirrors[0].shape.contains(position.as_dvec3());
-            hidden_inside += u32::from(inside && *state == VertexState::Hidden);
-        }
-        assert!(hidden_inside > 0);
-    }
-
-    #[test]
-    fn the_grid_moves_with_its_mesh() {
-        // Where the mesh went, the same grid gives what a grid made there gives: the move is along
-        // the axes, so that both divide the mesh alike. Rounding of the moved positions, in pixels
-        // of this small picture.
-        const ROUNDING: f32 = 1e-3;
-        let Some(gpu) = gpu_or_skip() else {
-            return;
-        };
-        let mut scene = scene("sphere-objects-1k");
-        let technique = format!("{SEARCH}+grid");
-        let mut moving = ready(&gpu, &scene, &technique);
-        moving.render().expect("renders");
-        for object in &mut scene.objects {
-            for position in &mut object.mesh.positions {
-                *position += Vec3::new(0.25, 0.0, 0.5);
-            }
-        }
-        moving.update(&scene).expect("the same scene");
-        let moved = moving.render().expect("renders");
-        let fresh = render(&gpu, &scene, "+grid");
-        let pairs = answers(&moved).into_iter().zip(answers(&fresh));
-        let worst = pairs.map(|(a, b)| a.1.distance(b.1)).fold(0.0, f32::max);
-        assert!(worst < ROUNDING, "{worst}");
     }
 }

@@ -3,44 +3,44 @@
 use catoptric_frame::{Triangles, VertexResult};
 
 use super::originals::Originals;
-use super::{Context, Refine};
+use super::{Context, Recipe, Refine};
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder, Slot, group};
 use crate::search::Search;
 use crate::stage::Stage;
 use crate::stage::points::Efforts;
 use crate::stage::raster::Raster;
-use crate::technique::Variant;
+use crate::stage::variant::Variant;
 
-struct Unrefined {
+/// No refinement.
+pub(crate) struct Unrefined;
+
+impl Recipe for Unrefined {
+    fn make(&self, context: &Context<'_>) -> Result<Box<dyn Refine>, ReflectError> {
+        let Context { gpu, stage, .. } = context;
+        let slots = [Slot::Read];
+        let raster = Raster::new(gpu, context.drawn, stage, "virtual", &[], &slots)?;
+        let originals = Originals::new(context);
+        let found = originals.batches.iter().map(|batch| {
+            let found = batch.found.as_entire_binding();
+            group(gpu, &raster.own_layout, &[found])
+        });
+        Ok(Box::new(AsItIs {
+            found: found.collect(),
+            raster,
+            originals,
+        }))
+    }
+}
+
+/// The scene's own triangles, ready to be drawn.
+struct AsItIs {
     raster: Raster,
     originals: Originals,
     found: Vec<wgpu::BindGroup>,
 }
 
-pub(crate) fn make(context: &Context<'_>) -> Result<Box<dyn Refine>, ReflectError> {
-    let Context { gpu, stage, .. } = context;
-    let raster = Raster::new(
-        gpu,
-        context.search_options,
-        stage,
-        "virtual",
-        &[],
-        &[Slot::Read],
-    )?;
-    let originals = Originals::new(context);
-    let found = originals.batches.iter().map(|batch| {
-        let found = batch.found.as_entire_binding();
-        group(gpu, &raster.own_layout, &[found])
-    });
-    Ok(Box::new(Unrefined {
-        found: found.collect(),
-        raster,
-        originals,
-    }))
-}
-
-impl Refine for Unrefined {
+impl Refine for AsItIs {
     fn update(&mut self, _gpu: &Gpu, _stage: &Stage) {}
 
     fn begin_frame(&mut self, gpu: &Gpu, stage: &Stage, warm: bool) {
@@ -63,8 +63,8 @@ impl Refine for Unrefined {
             });
     }
 
-    fn vertices(&self, gpu: &Gpu, stage: &Stage, search: &dyn Search) -> Vec<VertexResult> {
-        self.originals.vertices(gpu, stage, search)
+    fn vertices(&self, gpu: &Gpu, stage: &Stage) -> Vec<VertexResult> {
+        self.originals.vertices(gpu, stage)
     }
 
     fn efforts(&self, gpu: &Gpu, stage: &Stage) -> Efforts {

@@ -4,9 +4,8 @@ use encase::ShaderSize;
 
 use super::kernels::GROUP;
 use super::plan::Plan;
-use super::{Level, Totals};
+use super::records::{Level, Piece, Totals};
 use crate::gpu::{Gpu, storage_bytes, storage_zeros};
-use crate::stage::data::Piece;
 
 /// Distance between the [`Level`] records, bytes: where every device lets a binding begin.
 pub(super) const LEVEL_STRIDE: u64 = 256;

@@ -1,6 +1,6 @@
 //! Kernels of the tessellation loop, with the layouts of what they are bound to.
 
-use super::Rule;
+use super::rule::Rule;
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, Slot, compute, group, layout, module};
 use crate::refine::Context;

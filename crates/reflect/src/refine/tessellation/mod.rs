@@ -11,73 +11,30 @@ mod junctions;
 mod kernels;
 mod passes;
 mod plan;
+mod records;
+pub(crate) mod rule;
 #[cfg(test)]
 pub(crate) mod tests;
 #[cfg(test)]
 mod twin;
 
 use catoptric_frame::{Triangles, VertexResult};
-use catoptric_scene::Scene;
-use encase::ShaderType;
 
 use super::originals::Originals;
 use super::{Context, Refine};
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder};
 use crate::search::Search;
-use crate::spec::Options;
 use crate::stage::Stage;
-use crate::stage::data::{Found, Piece};
-use crate::stage::points::Efforts;
-use crate::technique::Variant;
+use crate::stage::options::Hidden;
+use crate::stage::points::{Efforts, Found};
+use crate::stage::variant::Variant;
 
 use passes::Passes;
 pub(crate) use plan::DEEPEST;
 use plan::Plan;
-
-/// Which triangles are split.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Rule {
-    /// How often a triangle may be split.
-    pub level: u32,
-    /// Edge error in 0..=1 from which a triangle is split: 0 splits all, 1 none. `None` splits
-    /// all without asking.
-    pub threshold: Option<f32>,
-}
-
-/// Twin of `Settings` in `tessellation.wesl`.
-#[derive(Clone, Copy, Debug, ShaderType)]
-pub(crate) struct Settings {
-    pub threshold: f32,
-    pub level: u32,
-}
-
-/// Twin of `Chunk` in `tessellation.wesl`.
-#[derive(Clone, Copy, Debug, ShaderType)]
-pub(crate) struct Chunk {
-    pub first: u32,
-    pub count: u32,
-}
-
-/// Twin of `Level` in `tessellation.wesl`, as far as the CPU reads it.
-#[derive(Clone, Copy, Debug, ShaderType)]
-pub(crate) struct Level {
-    pub groups: glam::UVec3,
-    pub count: u32,
-    pub draw: glam::UVec4,
-    pub finished: u32,
-    pub points: u32,
-    pub splits: u32,
-    pub index: u32,
-}
-
-/// Twin of `Totals` in `tessellation.wesl`.
-#[derive(Clone, Copy, Debug, ShaderType)]
-pub(crate) struct Totals {
-    pub by_level: [u32; 12],
-    pub points: u32,
-    pub unfinished: u32,
-}
+use records::Piece;
+pub(crate) use rule::Rule;
 
 /// A finished triangle, on the CPU.
 #[derive(Clone, Copy, Debug)]
@@ -99,21 +56,11 @@ const MOST_COUNTED: u64 = 1 << 18;
 pub(crate) struct Tessellation {
     /// `hidden=extend`.
     extends: bool,
-    /// `start=previous`.
+    /// The search starts at the previous frame's answers.
     starts_warm: bool,
     plan: Plan,
     originals: Originals,
     passes: Passes,
-}
-
-/// Why a rule is not for a scene: more triangles than can be counted.
-pub(crate) fn objection(options: &Options, scene: &Scene) -> Option<String> {
-    let level = options.whole("level");
-    let triangles = scene.triangle_count() as u64 * scene.mirrors.len() as u64;
-    let most = triangles.saturating_mul(4_u64.pow(level));
-    (most > u64::from(u32::MAX)).then(|| {
-        format!("level {level} can make {most} triangles of {triangles}; a frame counts 32 bits")
-    })
 }
 
 impl Tessellation {
@@ -127,10 +74,9 @@ impl Tessellation {
         let plan = Plan::new(context.stage.world.corners / 3, rule.level, binding);
         let originals = Originals::new(context);
         let passes = Passes::new(context, rule, plan, &originals)?;
-        let options = context.search_options;
         Ok(Self {
-            extends: options.is("hidden", "extend"),
-            starts_warm: options.has("start") && options.is("start", "previous"),
+            extends: context.drawn.hidden == Hidden::Extend,
+            starts_warm: context.search.carries_over,
             plan,
             originals,
             passes,
@@ -216,8 +162,8 @@ impl Refine for Tessellation {
         }
     }
 
-    fn vertices(&self, gpu: &Gpu, stage: &Stage, search: &dyn Search) -> Vec<VertexResult> {
-        self.originals.vertices(gpu, stage, search)
+    fn vertices(&self, gpu: &Gpu, stage: &Stage) -> Vec<VertexResult> {
+        self.originals.vertices(gpu, stage)
     }
 
     fn efforts(&self, gpu: &Gpu, stage: &Stage) -> Efforts {

@@ -6,17 +6,17 @@ use glam::{Vec3, Vec4};
 use super::buffers::{Buffers, DRAW, LEVEL_STRIDE};
 use super::kernels::{GROUP, Kernels};
 use super::plan::Plan;
-use super::{Chunk, Level, Rule, Settings, Totals};
+use super::records::{Chunk, Level, Piece, Settings, Totals};
+use super::rule::Rule;
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder, Slot, dispatch_size, group, uniform};
 use crate::refine::Context;
 use crate::refine::originals::Originals;
 use crate::search::Search;
 use crate::stage::Stage;
-use crate::stage::data::{Found, Piece};
-use crate::stage::points::{Dispatch, Points, read};
+use crate::stage::points::{Dispatch, Found, Points, read};
 use crate::stage::raster::Raster;
-use crate::technique::Variant;
+use crate::stage::variant::Variant;
 
 /// The loop, ready for one scene.
 pub(super) struct Passes {
@@ -135,7 +135,7 @@ impl Passes {
         let tallied = [&points.efforts, &buffers.range, &buffers.effort_sums];
         let raster = Raster::new(
             gpu,
-            context.search_options,
+            context.drawn,
             stage,
             "virtual",
             &["split"],

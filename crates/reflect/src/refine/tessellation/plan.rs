@@ -2,7 +2,8 @@
 
 use encase::ShaderSize;
 
-use crate::stage::data::{Found, Piece};
+use super::records::Piece;
+use crate::stage::points::Found;
 
 /// Most triangles in a chunk: bounds a frame's buffers at about 250 MB, even where the device
 /// would take more.

@@ -4,10 +4,12 @@ use catoptric_scene::Scene;
 use glam::Vec3;
 
 use super::*;
-use crate::spec::parse;
+use crate::refine::adaptive::Adaptive;
+use crate::refine::full::Full;
+use crate::registry::{Asked, asked};
 use crate::stage::points::points_layout;
 use crate::testing::{Searched, gpu_or_skip, scene};
-use crate::{Output, prepare};
+use crate::{Output, parse, prepare};
 
 const SIZE: [u32; 2] = [160, 120];
 
@@ -28,15 +30,19 @@ impl Tessellated {
         let (search, _) = technique.split_once('+').expect("a refinement");
         let searched = Searched::new(gpu, scene, search, size);
         let options = spec.refinement().expect("a refinement");
-        let rule = Rule {
-            level: options.whole("level"),
-            threshold: (options.name() == "+adaptive").then(|| options.number("threshold") as f32),
+        let adaptive = options
+            .of()
+            .map(|(adaptive, _): (Adaptive, _)| adaptive.rule());
+        let full = options.of().map(|(full, _): (Full, _)| full.rule());
+        let rule = adaptive.or(full).expect("a rule");
+        let Asked::ObjectOrder(asked, _) = asked(&spec) else {
+            panic!("{technique} is no search")
         };
         let context = Context {
             gpu,
-            search_options: &spec.options,
-            searched_options: &spec.options,
-            options: Some(options),
+            drawn: asked.common,
+            search: asked.recipe.properties(),
+            continued: asked.common.hidden == Hidden::Extend,
             stage: &searched.stage,
             points_layout: &points_layout(gpu),
         };

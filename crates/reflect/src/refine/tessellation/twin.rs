@@ -3,8 +3,9 @@
 
 use glam::{IVec2, Vec2, Vec3};
 
-use crate::stage::data::{Found, ViewUniform};
+use crate::stage::points::Found;
 use crate::stage::twin::GBuffer;
+use crate::stage::view::ViewUniform;
 
 /// Weight 1 of a packed place.
 const WHOLE: u32 = 1 << 14;
@@ -153,11 +154,11 @@ mod tests {
     use std::collections::{HashMap, HashSet};
 
     use super::*;
-    use crate::gpu::{Gpu, Recorder, storage_bytes};
+    use crate::gpu::{Gpu, storage_bytes};
     use crate::refine::tessellation::tests::Tessellated;
     use crate::stage::points::{Points, points_layout};
     use crate::stage::twin::vertices;
-    use crate::technique::Variant;
+    use crate::stage::variant::Variant;
     use crate::testing::{Searched, gpu_or_skip, scene};
 
     /// Share by which the number of triangles of a level may differ: what lies at the threshold.

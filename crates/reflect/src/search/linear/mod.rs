@@ -3,28 +3,76 @@
 #[cfg(test)]
 mod twin;
 
-use super::start::FromStart;
-use super::{Context, Search};
+use super::start::{FromStart, Start};
+use super::{Context, Recipe, Search};
 use crate::error::ReflectError;
+use crate::options::{options, words};
+use crate::technique::{Info, Named, Properties};
 
-pub(crate) fn make(context: &Context<'_>) -> Result<Box<dyn Search>, ReflectError> {
-    let options = context.options;
-    let mut features = Vec::new();
-    if options.is("residual", "cross") {
-        features.push("cross");
+words! {
+    /// How many texels are compared with in each step.
+    pub(crate) enum Neighbours {
+        Four = "4",
+        Eight = "8",
     }
-    if options.is("neighbours", "8") {
-        features.push("eight");
+}
+
+words! {
+    /// How well a texel fits, between its normal and the bisector.
+    pub(crate) enum Residual {
+        /// By their scalar product.
+        Dot = "dot",
+        /// By the length of their cross product.
+        Cross = "cross",
     }
-    if options.is("hidden", "extend") {
-        features.push("extend");
+}
+
+options! {
+    pub(crate) struct Linear {
+        /// where the walk starts: the mirror's projected centre, its projected bounding box's, or the previous frame's answer
+        start: Start,
+        /// texels compared with in each step
+        neighbours: Neighbours,
+        /// the measure of a texel's fitness
+        residual: Residual,
     }
-    Ok(Box::new(FromStart::new(context, "linear", &features)?))
+}
+
+impl Named for Linear {
+    const INFO: Info = Info {
+        name: "linear",
+        what: "linear screen-space search",
+        paper: "Szabo 2013",
+    };
+}
+
+impl Recipe for Linear {
+    fn properties(&self) -> Properties {
+        Properties {
+            walks: true,
+            carries_over: self.start == Start::Previous,
+            ..Properties::default()
+        }
+    }
+
+    fn make(&self, context: &Context<'_>) -> Result<Box<dyn Search>, ReflectError> {
+        let features = [
+            (self.residual == Residual::Cross, "cross"),
+            (self.neighbours == Neighbours::Eight, "eight"),
+            (context.extends, "extend"),
+        ];
+        let features = features
+            .into_iter()
+            .filter_map(|(on, name)| on.then_some(name));
+        let features: Vec<_> = features.collect();
+        let search = FromStart::new(context, self.start, "linear", &features)?;
+        Ok(Box::new(search))
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use crate::spec::parse;
+    use crate::parse;
     use crate::testing::{gpu_or_skip, scene};
 
     #[test]

@@ -2,7 +2,7 @@
 
 use glam::{IVec2, Vec2, Vec3};
 
-use crate::stage::data::Found;
+use crate::stage::points::Found;
 use crate::stage::twin::GBuffer;
 
 struct Walk<'a> {

@@ -15,17 +15,108 @@ mod twin;
 
 use std::cell::Cell;
 
+use catoptric_scene::Scene;
+use encase::ShaderType;
+
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder, Slot, group, layout, uniform, view};
 use crate::stage::Stage;
-use crate::stage::data::RepairUniform;
 use crate::stage::points::Points;
-use crate::technique::Variant;
+use crate::stage::variant::Variant;
 
-use super::{Context, Pipelines, Search};
+use super::{Context, Pipelines, Recipe, Search};
+use crate::options::{options, words};
+use crate::stage::options::{Hidden, SearchOptions};
+use crate::technique::{Info, Named, Properties};
 use pyramid::Pyramid;
 
-struct RayHierarchy {
+words! {
+    /// What is done about holes between the cones.
+    pub(crate) enum Repair {
+        None = "none",
+        /// A second test with enlarged cones and spheres.
+        Enlarge = "enlarge",
+        /// An answer from a level above the base.
+        Stop = "stop",
+    }
+}
+
+options! {
+    pub(crate) struct RayHierarchy {
+        /// what is done about holes between the cones: nothing, a second test with enlarged cones and spheres, or an answer from a level above the base
+        repair: Repair,
+        /// factor on the cones' half angles (repair=enlarge)
+        cone: f64 = 1.5 in 1.0..=100.0,
+        /// factor on the spheres' radii (repair=enlarge)
+        sphere: f64 = 2.0 in 1.0..=100.0,
+        /// level whose sphere centre is the answer, the pixels being level 0 (repair=stop)
+        stop: u32 = 3 in 1..=14,
+    }
+}
+
+impl Named for RayHierarchy {
+    const INFO: Info = Info {
+        name: "ray-hierarchy",
+        what: "cone and sphere pyramid over the reflected rays",
+        paper: "Szabo 2013",
+    };
+}
+
+/// Twin of `Repair` in `ray_hierarchy/search.wesl`.
+#[derive(Clone, Copy, Debug, ShaderType)]
+struct RepairUniform {
+    cone: f32,
+    sphere: f32,
+    stop: u32,
+}
+
+impl Recipe for RayHierarchy {
+    fn objection(&self, common: &SearchOptions, _: &Scene) -> Option<String> {
+        let reason = "hidden=extend: a hidden vertex lies in no cone of the hierarchy, only a search that \
+                      walks on the mirror can continue it";
+        (common.hidden == Hidden::Extend).then(|| reason.to_owned())
+    }
+
+    fn properties(&self) -> Properties {
+        Properties {
+            has_holes: true,
+            ..Properties::default()
+        }
+    }
+
+    fn make(&self, context: &Context<'_>) -> Result<Box<dyn Search>, ReflectError> {
+        let Context { gpu, stage, .. } = context;
+        let pyramid = Pyramid::new(gpu, stage)?;
+        let repair = RepairUniform {
+            cone: self.cone as f32,
+            sphere: self.sphere as f32,
+            stop: self.stop,
+        };
+        let repair = uniform(gpu, &repair);
+        let slots = [Slot::Texture, Slot::Texture, Slot::Uniform];
+        let own_layout = layout(gpu, "pyramid", &slots);
+        let (spheres, cones) = (view(&pyramid.spheres), view(&pyramid.cones));
+        let own = [
+            wgpu::BindingResource::TextureView(&spheres),
+            wgpu::BindingResource::TextureView(&cones),
+            repair.as_entire_binding(),
+        ];
+        let features: &[&str] = match self.repair {
+            Repair::None => &[],
+            Repair::Enlarge => &["enlarge"],
+            Repair::Stop => &["stop"],
+        };
+        Ok(Box::new(Descent {
+            built: Cell::new(None),
+            pipelines: Pipelines::new(context, "ray_hierarchy/search", features, &own_layout)?,
+            own: group(gpu, &own_layout, &own),
+            pyramid,
+        }))
+    }
+}
+
+/// The search, ready for a scene.
+struct Descent {
     pyramid: Pyramid,
     /// The mirror (an index) whose pyramid this frame has made last: one pyramid serves all
     /// mirrors in turn.
@@ -35,46 +126,7 @@ struct RayHierarchy {
     own: wgpu::BindGroup,
 }
 
-pub(crate) fn make(context: &Context<'_>) -> Result<Box<dyn Search>, ReflectError> {
-    let Context {
-        gpu,
-        options,
-        stage,
-        ..
-    } = context;
-    let pyramid = Pyramid::new(gpu, stage)?;
-    let repair = uniform(
-        gpu,
-        &RepairUniform {
-            cone: options.number("cone") as f32,
-            sphere: options.number("sphere") as f32,
-            stop: options.whole("stop"),
-        },
-    );
-    let own_layout = layout(
-        gpu,
-        "pyramid",
-        &[Slot::Texture, Slot::Texture, Slot::Uniform],
-    );
-    let (spheres, cones) = (view(&pyramid.spheres), view(&pyramid.cones));
-    let own = [
-        wgpu::BindingResource::TextureView(&spheres),
-        wgpu::BindingResource::TextureView(&cones),
-        repair.as_entire_binding(),
-    ];
-    let features: Vec<_> = ["enlarge", "stop"]
-        .into_iter()
-        .filter(|repair| options.is("repair", repair))
-        .collect();
-    Ok(Box::new(RayHierarchy {
-        built: Cell::new(None),
-        pipelines: Pipelines::new(context, "ray_hierarchy/search", &features, &own_layout)?,
-        own: group(gpu, &own_layout, &own),
-        pyramid,
-    }))
-}
-
-impl Search for RayHierarchy {
+impl Search for Descent {
     fn update(&mut self, _gpu: &Gpu, _stage: &Stage) {}
 
     fn begin_frame(&mut self, _gpu: &Gpu) {
@@ -98,8 +150,20 @@ impl Search for RayHierarchy {
         let on = &stage.gbuffer.mirror_groups[mirror];
         (self.pipelines).record(frame, (stage, on), points, &self.own, variant);
     }
+}
 
-    fn has_holes(&self) -> bool {
-        true
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::assert_layout;
+
+    #[test]
+    fn the_repair_lies_as_the_shader_reads_it() {
+        assert_layout!(
+            RepairUniform { cone, sphere, stop },
+            "ray_hierarchy/search",
+            &["enlarge", "stop"],
+            "Repair"
+        );
     }
 }

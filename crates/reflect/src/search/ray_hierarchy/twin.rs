@@ -2,8 +2,8 @@
 
 use glam::{IVec2, Vec2, Vec3, Vec4};
 
-use crate::spec::Options;
-use crate::stage::data::{Effort, Found};
+use super::{RayHierarchy, Repair};
+use crate::stage::points::{Effort, Found};
 use crate::stage::twin::GBuffer;
 
 const PI: f32 = std::f32::consts::PI;
@@ -198,14 +198,14 @@ struct Descent<'a> {
 }
 
 impl<'a> Descent<'a> {
-    fn new(gbuffer: &'a GBuffer, pyramid: &'a Pyramid, options: &Options) -> Self {
-        let factors = ["cone", "sphere"].map(|key| options.number(key) as f32);
-        let is = |repair| options.is("repair", repair);
+    fn new(gbuffer: &'a GBuffer, pyramid: &'a Pyramid, options: &RayHierarchy) -> Self {
+        let factors = [options.cone, options.sphere].map(|factor| factor as f32);
+        let is = |repair| options.repair == repair;
         Self {
             gbuffer,
             pyramid,
-            enlarge: is("enlarge").then_some(factors),
-            stop: is("stop").then(|| options.whole("stop") as usize),
+            enlarge: is(Repair::Enlarge).then_some(factors),
+            stop: is(Repair::Stop).then_some(options.stop as usize),
         }
     }
 
@@ -280,9 +280,9 @@ impl<'a> Descent<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gpu::{Gpu, Recorder};
+    use crate::gpu::Gpu;
+    use crate::parse;
     use crate::search::ray_hierarchy::pyramid::Pyramid as OnGpu;
-    use crate::spec::parse;
     use crate::stage::twin::vertices;
     use crate::testing::{Searched, gpu_or_skip, scene};
 
@@ -395,13 +395,14 @@ mod tests {
         let scene = scene(name);
         let technique = format!("ray-hierarchy({options})");
         let spec = parse(&technique).expect("a technique");
+        let (options, _) = spec.options().of().expect("its own");
         let searched = Searched::new(gpu, &scene, &technique, size);
         let view = scene.camera.view(size);
         let (mut same, mut same_work, mut count) = (0, 0, 0);
         for (mirror, points) in searched.batches.iter().enumerate() {
             let gbuffer = GBuffer::read(gpu, &searched.stage, mirror);
             let pyramid = Pyramid::build(&gbuffer);
-            let descent = Descent::new(&gbuffer, &pyramid, &spec.options);
+            let descent = Descent::new(&gbuffer, &pyramid, &options);
             let positions = vertices(&searched.stage);
             let found = points.read_found(gpu, positions.len() as u32);
             let efforts = points.read_efforts(gpu, positions.len() as u32);

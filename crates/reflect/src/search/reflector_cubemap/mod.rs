@@ -9,46 +9,111 @@ mod tests;
 pub(crate) mod twin;
 
 use catoptric_scene::{Mirror, Scene, Shape};
+use encase::ShaderType;
 use wgpu::util::{DeviceExt, TextureDataOrder};
 
-use super::{Context, Pipelines, Search};
+use super::{Context, Pipelines, Recipe, Search};
 use crate::error::ReflectError;
 use crate::gpu::{FLOAT4, Gpu, Recorder, Slot, group, layout, uniform};
-use crate::spec::Options;
+use crate::options::{options, words};
 use crate::stage::Stage;
-use crate::stage::data::ReflectorCubemapSettings;
+use crate::stage::options::SearchOptions;
 use crate::stage::points::Points;
-use crate::technique::Variant;
+use crate::stage::variant::Variant;
+use crate::technique::{Info, Named};
 use maps::Maps;
 
-/// Reads the search's options, for a mirror whose maps face this way ([`Maps::facing`]).
-///
-/// Where normals point inwards, the surface whose normal is the bisector lies in the direction
-/// against it. The field so turned has its sinks at the inverted images: in front of a point beyond
-/// the focus the bisector turns less along the mirror than the normal, in front of a nearer one more,
-/// so that each step leads away from the upright image.
-fn settings(options: &Options, facing: f32) -> ReflectorCubemapSettings {
-    ReflectorCubemapSettings {
-        size: options.whole("size"),
-        iterations: options.whole("iterations"),
-        first_step: options.number("step") as f32,
-        shrink: options.number("shrink") as f32,
-        grow: options.number("grow") as f32,
-        from_eye: u32::from(options.is("start", "eye")),
-        facing,
+words! {
+    /// Where a search starts.
+    pub(crate) enum Start {
+        /// Halfway between the directions to eye and vertex.
+        Bisector = "bisector",
+        /// In the eye's direction.
+        Eye = "eye",
     }
 }
 
-/// Why a scene's mirrors cannot be searched.
-pub(crate) fn objection(_: &Options, scene: &Scene) -> Option<String> {
-    scene.mirrors.iter().find_map(|mirror| {
-        let reason = maps::objection(&mirror.shape)?;
-        Some(format!("mirror `{}` {reason}", mirror.name))
-    })
+options! {
+    pub(crate) struct ReflectorCubemap {
+        /// most steps of a search
+        iterations: u32 = 9 in 1..=256,
+        /// texels along an edge of the cube maps
+        size: u32 = 256 in 2..=2048,
+        /// the direction from the mirror's centre where a search starts (in a concave mirror the one against it): halfway between eye and vertex, or the eye's
+        start: Start,
+        /// length of the first step, in units of the projected bisector
+        step: f64 = 0.5 in 0.05..=4.0,
+        /// factor of the step length where the field changes much within a step
+        shrink: f64 = 0.6 in 0.1..=1.0,
+        /// factor of the step length where the field changes little within a step
+        grow: f64 = 1.25 in 1.0..=4.0,
+    }
 }
 
-struct ReflectorCubemap {
-    options: Options,
+impl Named for ReflectorCubemap {
+    const INFO: Info = Info {
+        name: "reflector-cubemap",
+        what: "midpoint search in cube maps of the mirror",
+        paper: "Estalella et al. 2005",
+    };
+}
+
+impl Recipe for ReflectorCubemap {
+    fn objection(&self, _: &SearchOptions, scene: &Scene) -> Option<String> {
+        scene.mirrors.iter().find_map(|mirror| {
+            let reason = maps::objection(&mirror.shape)?;
+            Some(format!("mirror `{}` {reason}", mirror.name))
+        })
+    }
+
+    fn make(&self, context: &Context<'_>) -> Result<Box<dyn Search>, ReflectError> {
+        Ok(Box::new(InMaps::new(self, context)?))
+    }
+}
+
+/// Twin of `Settings` in `reflector_cubemap.wesl`.
+#[derive(Clone, Copy, Debug, ShaderType)]
+struct Settings {
+    /// Texels along an edge of a face.
+    size: u32,
+    /// Most steps.
+    iterations: u32,
+    /// Length of the first step; 1 moves a point of the unit sphere from the normal's tip to the
+    /// bisector's, to first order.
+    first_step: f32,
+    /// Factor of the step length where the field changes much.
+    shrink: f32,
+    /// Factor of the step length where the field changes little.
+    grow: f32,
+    /// 1: start in the eye's direction, 0: at the bisector of the directions to eye and vertex.
+    from_eye: u32,
+    /// 1: the mirror's normals point away from its centre, −1: towards it.
+    facing: f32,
+}
+
+impl Settings {
+    /// For a mirror whose maps face this way ([`Maps::facing`]).
+    ///
+    /// Where normals point inwards, the surface whose normal is the bisector lies in the direction
+    /// against it. The field so turned has its sinks at the inverted images: in front of a point
+    /// beyond the focus the bisector turns less along the mirror than the normal, in front of a
+    /// nearer one more, so that each step leads away from the upright image.
+    fn new(options: &ReflectorCubemap, facing: f32) -> Self {
+        Self {
+            size: options.size,
+            iterations: options.iterations,
+            first_step: options.step as f32,
+            shrink: options.shrink as f32,
+            grow: options.grow as f32,
+            from_eye: u32::from(options.start == Start::Eye),
+            facing,
+        }
+    }
+}
+
+/// The search, ready for a scene.
+struct InMaps {
+    options: ReflectorCubemap,
     layout: wgpu::BindGroupLayout,
     pipelines: Pipelines,
     mirrors: Vec<OnGpu>,
@@ -62,25 +127,16 @@ struct OnGpu {
     group: wgpu::BindGroup,
 }
 
-pub(crate) fn make(context: &Context<'_>) -> Result<Box<dyn Search>, ReflectError> {
-    Ok(Box::new(ReflectorCubemap::new(context)?))
-}
-
-impl ReflectorCubemap {
-    fn new(context: &Context<'_>) -> Result<Self, ReflectError> {
-        let Context {
-            gpu,
-            options,
-            stage,
-            ..
-        } = context;
+impl InMaps {
+    fn new(options: &ReflectorCubemap, context: &Context<'_>) -> Result<Self, ReflectError> {
+        let Context { gpu, stage, .. } = context;
         let slots = [Slot::Uniform, Slot::Textures, Slot::Textures];
         let layout = layout(gpu, "reflector cube maps", &slots);
-        let extend = options.is("hidden", "extend").then_some("extend");
-        let features: Vec<_> = extend.into_iter().collect();
+        let features = context.extends.then_some("extend");
+        let features = features.as_slice();
         let mut made = Self {
-            options: (*options).clone(),
-            pipelines: Pipelines::new(context, "reflector_cubemap", &features, &layout)?,
+            options: *options,
+            pipelines: Pipelines::new(context, "reflector_cubemap", features, &layout)?,
             layout,
             mirrors: Vec::new(),
             builds: 0,
@@ -93,8 +149,8 @@ impl ReflectorCubemap {
     /// Makes the maps of a mirror.
     fn build(&mut self, gpu: &Gpu, mirror: &Mirror) -> OnGpu {
         self.builds += 1;
-        let maps = Maps::new(&mirror.shape, self.options.whole("size"));
-        let settings = uniform(gpu, &settings(&self.options, maps.facing));
+        let maps = Maps::new(&mirror.shape, self.options.size);
+        let settings = uniform(gpu, &Settings::new(&self.options, maps.facing));
         let views = [&maps.positions, &maps.normals].map(|texels| {
             let texture = faces(gpu, maps.size, texels);
             texture.create_view(&wgpu::TextureViewDescriptor {
@@ -137,7 +193,7 @@ fn faces(gpu: &Gpu, size: u32, texels: &[[f32; 4]]) -> wgpu::Texture {
     )
 }
 
-impl Search for ReflectorCubemap {
+impl Search for InMaps {
     fn update(&mut self, gpu: &Gpu, stage: &Stage) {
         for (index, mirror) in stage.world.scene.mirrors.iter().enumerate() {
             if self.mirrors[index].shape != mirror.shape {
@@ -161,66 +217,5 @@ impl Search for ReflectorCubemap {
         let own = &self.mirrors[mirror].group;
         let on = &stage.gbuffer.mirror_groups[mirror];
         (self.pipelines).record(frame, (stage, on), points, own, variant);
-    }
-}
-
-#[cfg(test)]
-mod rebuilding {
-    use glam::DVec3;
-
-    use super::*;
-    use crate::search::Account;
-    use crate::spec::parse;
-    use crate::stage::points::points_layout;
-    use crate::testing::{gpu_or_skip, scene};
-
-    #[test]
-    fn maps_are_made_again_for_a_mirror_that_moves_and_only_then() {
-        let Some(gpu) = gpu_or_skip() else {
-            return;
-        };
-        let mut scene = scene("spheres");
-        let spec = parse("reflector-cubemap(size=16)").expect("a technique");
-        let mut stage = Stage::new(&gpu, spec.options(), &scene, [32, 24]).expect("fits");
-        let mut search = ReflectorCubemap::new(&Context {
-            gpu: &gpu,
-            options: spec.options(),
-            stage: &stage,
-            points_layout: &points_layout(&gpu),
-            account: Account::Efforts,
-        })
-        .expect("can be made");
-        let mirrors = scene.mirrors.len() as u32;
-        assert_eq!(search.builds, mirrors);
-        let mut builds_after = |scene: &Scene| {
-            stage.world.update(&gpu, scene).expect("the same scene");
-            search.update(&gpu, &stage);
-            search.builds - mirrors
-        };
-        scene.camera.eye += DVec3::new(0.1, 0.2, 0.0);
-        scene.objects[0].mesh.positions[0] += 0.5;
-        assert_eq!(builds_after(&scene), 0, "eye and objects");
-        let Shape::Sphere { center, .. } = &mut scene.mirrors[0].shape else {
-            panic!("a sphere")
-        };
-        center.x += 0.1;
-        assert_eq!(builds_after(&scene), 1, "moved");
-        let Shape::Sphere { radius, .. } = &mut scene.mirrors[0].shape else {
-            panic!("a sphere")
-        };
-        *radius *= 1.01;
-        assert_eq!(builds_after(&scene), 2, "deformed");
-        assert_eq!(builds_after(&scene), 2, "at rest");
-    }
-
-    #[test]
-    fn scenes_with_mirrors_that_no_closed_shape_stands_for_are_refused_by_name() {
-        let spec = parse("reflector-cubemap").expect("a technique");
-        let why = |name: &str| objection(spec.options(), &scene(name));
-        assert_eq!(why("spheres"), None);
-        assert_eq!(why("ellipsoid"), None);
-        assert_eq!(why("bowl"), None);
-        assert!(why("planar").is_some_and(|why| why.contains("open")));
-        assert!(why("torus").is_some_and(|why| why.contains("whole")));
     }
 }

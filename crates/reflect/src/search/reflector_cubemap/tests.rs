@@ -1,14 +1,16 @@
-//! `reflector_cubemap.wesl` and its twin, `twin.rs`: how exact they are,
-//! and that they agree.
+//! How exact `reflector_cubemap.wesl` and its twin are, that they agree, and when maps are made anew.
 
-use catoptric_scene::{Scene, View};
+use catoptric_scene::{Scene, Shape, View};
 use glam::{DVec2, DVec3, Vec2};
 
 use super::twin::{CubemapStep, CubemapWalk};
-use crate::spec::parse;
-use crate::stage::data::Found;
+use super::{InMaps, ReflectorCubemap, Settings};
+use crate::search::{Account, Context, Search};
+use crate::stage::points::Found;
+use crate::stage::points::points_layout;
 use crate::stage::twin::vertices;
-use crate::testing::{Searched, gpu_or_skip, scene};
+use crate::testing::{Searched, assert_layout, gpu_or_skip, scene, stage};
+use crate::{Support, parse, supports};
 
 /// The search of a technique on a scene's first mirror.
 fn walk(scene: &Scene, technique: &str) -> CubemapWalk {
@@ -193,4 +195,76 @@ fn gpu_finds_the_same_points() {
         );
         assert!(share >= SHARE, "{name} {technique}: {share}");
     }
+}
+
+#[test]
+fn the_settings_lie_as_the_shader_reads_them() {
+    assert_layout!(
+        Settings {
+            size,
+            iterations,
+            first_step,
+            shrink,
+            grow,
+            from_eye,
+            facing
+        },
+        "reflector_cubemap",
+        &[],
+        "Settings"
+    );
+}
+
+#[test]
+fn maps_are_made_again_for_a_mirror_that_moves_and_only_then() {
+    let Some(gpu) = gpu_or_skip() else {
+        return;
+    };
+    let mut scene = scene("spheres");
+    let spec = parse("reflector-cubemap(size=16)").expect("a technique");
+    let mut stage = stage(&gpu, &scene, [32, 24]);
+    let (options, _): (ReflectorCubemap, _) = spec.options().of().expect("its own");
+    let context = Context {
+        gpu: &gpu,
+        stage: &stage,
+        extends: false,
+        points_layout: &points_layout(&gpu),
+        account: Account::Efforts,
+    };
+    let mut search = InMaps::new(&options, &context).expect("can be made");
+    let mirrors = scene.mirrors.len() as u32;
+    assert_eq!(search.builds, mirrors);
+    let mut builds_after = |scene: &Scene| {
+        stage.world.update(&gpu, scene).expect("the same scene");
+        search.update(&gpu, &stage);
+        search.builds - mirrors
+    };
+    scene.camera.eye += DVec3::new(0.1, 0.2, 0.0);
+    scene.objects[0].mesh.positions[0] += 0.5;
+    assert_eq!(builds_after(&scene), 0, "eye and objects");
+    let Shape::Sphere { center, .. } = &mut scene.mirrors[0].shape else {
+        panic!("a sphere")
+    };
+    center.x += 0.1;
+    assert_eq!(builds_after(&scene), 1, "moved");
+    let Shape::Sphere { radius, .. } = &mut scene.mirrors[0].shape else {
+        panic!("a sphere")
+    };
+    *radius *= 1.01;
+    assert_eq!(builds_after(&scene), 2, "deformed");
+    assert_eq!(builds_after(&scene), 2, "at rest");
+}
+
+#[test]
+fn scenes_with_mirrors_that_no_closed_shape_stands_for_are_refused_by_name() {
+    let spec = parse("reflector-cubemap").expect("a technique");
+    let why = |name: &str| match supports(&spec, &scene(name)) {
+        Support::Yes => None,
+        Support::No(why) => Some(why),
+    };
+    assert_eq!(why("spheres"), None);
+    assert_eq!(why("ellipsoid"), None);
+    assert_eq!(why("bowl"), None);
+    assert!(why("planar").is_some_and(|why| why.contains("open")));
+    assert!(why("torus").is_some_and(|why| why.contains("whole")));
 }

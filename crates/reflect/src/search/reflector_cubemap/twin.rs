@@ -4,11 +4,12 @@
 use catoptric_scene::Scene;
 use glam::{Vec2, Vec3};
 
+use crate::options::Options as _;
 use crate::spec::Options;
-use crate::stage::data::ReflectorCubemapSettings;
+use crate::stage::options::{Hidden, SearchOptions};
 
 use super::maps::{Maps, objection};
-use super::settings;
+use super::{ReflectorCubemap, Settings};
 
 /// The search in the reflector cube maps of one mirror, on the CPU.
 ///
@@ -16,7 +17,7 @@ use super::settings;
 /// largest component 1.
 #[derive(Clone, Debug)]
 pub struct CubemapWalk {
-    settings: ReflectorCubemapSettings,
+    settings: Settings,
     maps: Maps,
     center: Vec3,
     /// Relative to the centre.
@@ -86,13 +87,16 @@ impl CubemapWalk {
     pub fn new(options: &Options, scene: &Scene, mirror: usize) -> Self {
         let shape = &scene.mirrors[mirror].shape;
         assert_eq!(objection(shape), None);
-        let maps = Maps::new(shape, options.whole("size"));
+        let own = options.of();
+        let (own, mut common): (ReflectorCubemap, _) = own.expect("options of this search");
+        let common = SearchOptions::read(&mut common);
+        let maps = Maps::new(shape, own.size);
         Self {
-            settings: settings(options, maps.facing),
+            settings: Settings::new(&own, maps.facing),
             maps,
             center: shape.center().as_vec3(),
             eye: (scene.camera.eye - shape.center()).as_vec3(),
-            extend: options.is("hidden", "extend"),
+            extend: common.hidden == Hidden::Extend,
         }
     }
 

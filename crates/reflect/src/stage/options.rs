@@ -1,0 +1,71 @@
+//! Options that techniques have in common.
+
+use crate::options::{options, words};
+
+words! {
+    /// Where the points of a mirror come from.
+    pub(crate) enum Surface {
+        Exact = "exact",
+        Mesh = "mesh",
+    }
+}
+
+words! {
+    /// What a mirror shows where no reflection is drawn.
+    pub(crate) enum Under {
+        Background = "background",
+        Dark = "dark",
+    }
+}
+
+options! {
+    /// Options of every technique.
+    pub(crate) struct StageOptions {
+        /// mirror points by analytic intersection, or of the drawn triangles
+        gbuffer: Surface,
+        /// what a mirror shows where no reflection is drawn
+        under: Under,
+    }
+}
+
+words! {
+    /// What virtual triangles are depth-tested by.
+    pub(crate) enum Depth {
+        /// As in Szabo's thesis: by the distance from reflection point to vertex.
+        Thesis = "thesis",
+        /// By the virtual vertex, in space.
+        Virtual = "virtual",
+    }
+}
+
+words! {
+    /// What becomes of vertices behind the tangent plane at their reflection point.
+    pub(crate) enum Hidden {
+        /// Triangles with such a vertex are not drawn.
+        Drop = "drop",
+        /// Such vertices are continued behind the tangent plane.
+        Extend = "extend",
+    }
+}
+
+words! {
+    /// What is drawn of the virtual triangles.
+    pub(crate) enum Show {
+        Shaded = "shaded",
+        Wireframe = "wireframe",
+        Levels = "levels",
+    }
+}
+
+options! {
+    /// Options of every search.
+    pub(crate) struct SearchOptions {
+        /// what the virtual triangles are depth-tested by; with a +grid that interpolates always virtual
+        depth: Depth,
+        /// triangles with a hidden vertex are dropped, or drawn with the vertex continued behind the tangent plane unless all three are hidden
+        hidden: Hidden,
+        /// the reflected surfaces, those with the edges of the virtual triangles, or how often each was split
+        show: Show,
+        ..stage: StageOptions,
+    }
+}

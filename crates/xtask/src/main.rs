@@ -106,7 +106,7 @@ fn report(args: Vec<OsString>) -> Step {
 
 /// Our tracer and Embree, whose program this is.
 fn compare_embree(program: PathBuf) -> Step {
-    let mut step = Step::cargo("bench -p catoptric-reference --bench embree -- --embree");
+    let mut step = Step::cargo("bench --workspace --bench embree -- --embree");
     step.args.push(program.into());
     step
 }

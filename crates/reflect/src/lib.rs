@@ -11,6 +11,7 @@
 //!   `object_order.rs` puts searches and refinements together;
 //! * `registry.rs`: the list of all techniques; `spec.rs`: the grammar of their names.
 
+mod diagnostics;
 mod error;
 mod gpu;
 mod image_order;
@@ -26,18 +27,17 @@ mod technique;
 #[cfg(test)]
 mod testing;
 
+pub use diagnostics::{Answer, DistanceLevel, Question, Visit};
 pub use error::ReflectError;
 pub use gpu::{AdapterInfo, FrameTime, Gpu, GpuError, Prefer, SelfTest, adapters, shaders};
 pub use options::{OptionInfo, Values};
 pub use prepared::Prepared;
 pub use registry::list;
-pub use search::path::Visit;
 pub use search::reflector_cubemap::twin::{CubemapAnswer, CubemapStep, CubemapWalk};
 pub use spec::{Options, Spec, SpecError};
-pub use technique::{DistanceLevel, Family, Output, Properties, TechniqueInfo};
+pub use technique::{Family, Output, Properties, TechniqueInfo};
 
 use catoptric_scene::Scene;
-use glam::Vec3;
 use registry::Asked;
 
 /// Whether a technique can draw a scene.
@@ -83,28 +83,9 @@ pub fn prepare<'g>(
 ) -> Result<Prepared<'g>, ReflectError> {
     let technique = match registry::asked(spec) {
         Asked::ObjectOrder(search, refinement) => {
-            object_order::prepare(gpu, &search, refinement.as_ref(), scene, size)
+            object_order::prepare(gpu, search, refinement.as_ref(), scene, size)
         }
         Asked::ImageOrder(technique) => image_order::prepare(gpu, &technique, scene, size),
     }?;
     Ok(Prepared::new(gpu, technique))
-}
-
-/// The steps of the search of `spec` for a world-space point on a mirror (an index), at most 4095.
-/// Empty where the technique is no search, or one that does not tell its steps.
-///
-/// # Errors
-/// As [`prepare`].
-pub fn path(
-    gpu: &Gpu,
-    spec: &Spec,
-    scene: &Scene,
-    size: [u32; 2],
-    point: Vec3,
-    mirror: usize,
-) -> Result<Vec<Visit>, ReflectError> {
-    match registry::asked(spec) {
-        Asked::ObjectOrder(asked, _) => search::path::path(gpu, &asked, scene, size, point, mirror),
-        Asked::ImageOrder(_) => Ok(Vec::new()),
-    }
 }

@@ -3,9 +3,11 @@
 
 use catoptric_scene::Scene;
 
+use crate::diagnostics::{Answer, Question};
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder};
 use crate::refine::{self, Refine};
+use crate::search::path::path;
 use crate::search::{self, Account, Search};
 use crate::stage::Stage;
 use crate::stage::options::{Hidden, SearchOptions};
@@ -16,6 +18,7 @@ use crate::technique::{Built, Output, Properties, Technique};
 
 /// A search with a refinement.
 struct ObjectOrder {
+    asked: search::Asked,
     stage: Stage,
     search: Box<dyn Search>,
     refine: Box<dyn Refine>,
@@ -30,12 +33,12 @@ struct ObjectOrder {
 /// Makes a search with its refinement ready for a scene.
 pub(crate) fn prepare(
     gpu: &Gpu,
-    asked: &search::Asked,
+    asked: search::Asked,
     refinement: &dyn refine::Recipe,
     scene: &Scene,
     size: [u32; 2],
 ) -> Result<Box<dyn Technique>, ReflectError> {
-    let search::Asked { recipe, common } = asked;
+    let search::Asked { recipe, common } = &asked;
     let stage = Stage::new(gpu, common.stage, scene, size)?;
     let points_layout = points_layout(gpu);
     let continued = SearchOptions {
@@ -44,7 +47,7 @@ pub(crate) fn prepare(
     };
     let continues = common.hidden == Hidden::Extend
         || refinement.wants_continued() && recipe.objection(&continued, scene).is_none();
-    let properties = recipe.properties();
+    let properties = asked.properties();
     let search = recipe.make(&search::Context {
         gpu,
         stage: &stage,
@@ -61,6 +64,7 @@ pub(crate) fn prepare(
         points_layout: &points_layout,
     })?;
     Ok(Box::new(ObjectOrder {
+        asked,
         stage,
         search,
         refine,
@@ -115,7 +119,14 @@ impl Technique for ObjectOrder {
             t_junctions: (self.refine).t_junctions(gpu, &self.stage, self.search.as_ref()),
             work: efforts.mean(hierarchy),
             notes: self.refine.notes(),
-            traced: None,
         }
+    }
+
+    fn answer(&self, gpu: &Gpu, question: Question) -> Result<Option<Answer>, ReflectError> {
+        let Question::Path { point, mirror } = question else {
+            return Ok(None);
+        };
+        let visits = path(gpu, &self.asked, &self.stage, point, mirror)?;
+        Ok(Some(Answer::Path(visits)))
     }
 }

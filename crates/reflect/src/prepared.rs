@@ -4,10 +4,11 @@ use std::time::Instant;
 
 use catoptric_scene::Scene;
 
+use crate::diagnostics::{Answer, Question};
 use crate::error::ReflectError;
 use crate::gpu::{FrameTime, Gpu, Timer};
 use crate::stage::variant::Variant;
-use crate::technique::{Built, DistanceLevel, Output, Technique};
+use crate::technique::{Built, Output, Technique};
 
 /// A technique that stands ready to render one scene.
 pub struct Prepared<'g> {
@@ -64,10 +65,12 @@ impl<'g> Prepared<'g> {
         Ok(FrameTime { build_ms, ..time })
     }
 
-    /// The pyramid over the first mirror's cube maps of distance, from texels to a cell a face; `None`
-    /// where the technique has no such pyramid.
-    pub fn distance_levels(&self) -> Option<Vec<DistanceLevel>> {
-        self.technique.distance_levels(self.gpu)
+    /// Asks what goes on inside the technique; `None` if there is no such thing in it.
+    ///
+    /// # Errors
+    /// As when preparing.
+    pub fn ask(&self, question: Question) -> Result<Option<Answer>, ReflectError> {
+        self.technique.answer(self.gpu, question)
     }
 
     /// Takes over what moved since the last frame: eye, object vertices, mirrors. Nothing is

@@ -51,7 +51,7 @@ const fn search<T: Named + search::Recipe + 'static>() -> Technique {
     Technique {
         info: TechniqueInfo {
             options: [T::TABLE, SearchOptions::TABLE],
-            properties: |values| T::read(values).properties(),
+            properties: |values| search::Asked::read::<T>(values).properties(),
             ..introduced(T::INFO, Family::Search)
         },
         read: Read::Search(search::Asked::read::<T>),

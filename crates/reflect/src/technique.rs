@@ -3,9 +3,10 @@
 
 use std::fmt;
 
-use catoptric_frame::{Frame, Traced, Triangles, VertexResult, Work};
+use catoptric_frame::{Frame, Triangles, VertexResult, Work};
 use catoptric_scene::Scene;
 
+use crate::diagnostics::{Answer, Question};
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder};
 use crate::options::{OptionInfo, Options, Settled};
@@ -96,6 +97,9 @@ pub struct Properties {
     pub interpolates: bool,
     /// A frame is found more easily after another one.
     pub carries_over: bool,
+    /// Vertices behind the tangent plane are continued, so that triangles are drawn that the mirror
+    /// hides in part.
+    pub continues_hidden: bool,
     /// Mirror pixels may be left without an answer.
     pub may_be_unresolved: bool,
 }
@@ -109,6 +113,7 @@ impl Properties {
         splits_triangles: false,
         interpolates: false,
         carries_over: false,
+        continues_hidden: false,
         may_be_unresolved: false,
     };
 
@@ -121,6 +126,7 @@ impl Properties {
             splits_triangles: self.splits_triangles || other.splits_triangles,
             interpolates: self.interpolates || other.interpolates,
             carries_over: self.carries_over || other.carries_over,
+            continues_hidden: self.continues_hidden || other.continues_hidden,
             may_be_unresolved: self.may_be_unresolved || other.may_be_unresolved,
         }
     }
@@ -162,21 +168,13 @@ pub(crate) trait Technique {
     /// [`Variant::AllLayers`].
     fn output(&self, gpu: &Gpu) -> Output;
 
-    /// The pyramid of the first mirror's cube maps of distance, texels first; `None` for techniques
-    /// that have none.
-    fn distance_levels(&self, _: &Gpu) -> Option<Vec<DistanceLevel>> {
-        None
+    /// Tells of its inside; `None` if there is no such thing in it.
+    ///
+    /// # Errors
+    /// As when preparing.
+    fn answer(&self, _: &Gpu, _: Question) -> Result<Option<Answer>, ReflectError> {
+        Ok(None)
     }
-}
-
-/// A level of a pyramid over cube maps of world distance.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DistanceLevel {
-    /// Cells a side of a face.
-    pub side: u32,
-    /// Least and greatest distance in a cell, world units: by map, face (+x −x +y −y +z −z), row,
-    /// column. The background counts as far as the scene's diagonal.
-    pub ranges: Vec<[f32; 2]>,
 }
 
 /// A rendered frame and all that was counted on the way.
@@ -199,7 +197,4 @@ pub struct Output {
     pub work: Work,
     /// What else the reader of these numbers should know, in sentences.
     pub notes: Vec<String>,
-    /// Pixel by pixel, what following the reflected rays took; `None` for techniques that do not
-    /// go along them step by step.
-    pub traced: Option<Traced>,
 }

@@ -47,7 +47,7 @@ pub fn record(
         // With a refinement, those are not the scene's vertices alone.
         let searched = rendered.output.searched;
         row.vertices = Some(VertexReport { searched, ..report });
-        if row.technique.contains('+') {
+        if catoptric_reflect::parse(&row.technique).is_ok_and(|spec| spec.refinement().is_some()) {
             row.meta.notes.push(
                 "vertices.searched counts the refinement's searches; the rest of vertices is about \
                  the scene's own vertices"
@@ -59,7 +59,7 @@ pub fn record(
     row.meta.notes.extend(rendered.output.notes.iter().cloned());
     row.triangles = rendered.output.triangles.clone();
     row.work = Some(rendered.output.work);
-    row.resolved_by = rendered.output.traced.as_ref().map(|traced| {
+    row.resolved_by = rendered.traced.as_ref().map(|traced| {
         let pixels = traced.pixels().max(1) as f64;
         let shares = traced.resolved_by.iter();
         shares.map(|count| *count as f64 / pixels).collect()

@@ -2,7 +2,8 @@
 
 use std::time::Instant;
 
-use catoptric_reflect::{DistanceLevel, Gpu, Output, Prepared, ReflectError, Spec, Support};
+use catoptric_frame::Traced;
+use catoptric_reflect::{Answer, Gpu, Output, Prepared, Question, ReflectError, Spec, Support};
 use catoptric_scene::Scene;
 
 use crate::record::{Status, Steadiness};
@@ -17,12 +18,17 @@ pub struct Rendered<'g> {
     pub(super) temporal: Option<Steadiness>,
     /// Picture, vertices, triangles and work.
     pub output: Output,
+    /// What the rays of that picture took, where they are followed step by step.
+    pub traced: Option<Traced>,
 }
 
 impl Rendered<'_> {
-    /// The pyramid over the technique's cube maps of distance, if it has one.
-    pub fn distance_levels(&self) -> Option<Vec<DistanceLevel>> {
-        self.prepared.distance_levels()
+    /// Asks what goes on inside the technique; `None` if there is no such thing in it.
+    ///
+    /// # Errors
+    /// As when preparing.
+    pub fn ask(&self, question: Question) -> Result<Option<Answer>, ReflectError> {
+        self.prepared.ask(question)
     }
 }
 
@@ -44,11 +50,16 @@ pub fn render<'g>(gpu: &'g Gpu, spec: &Spec, scene: &Scene) -> Result<Rendered<'
     let prepare_ms = start.elapsed().as_secs_f64() * 1e3;
     prepared.settle().map_err(failed)?;
     let output = prepared.render().map_err(failed)?;
+    let traced = match prepared.ask(Question::Traced).map_err(failed)? {
+        Some(Answer::Traced(traced)) => Some(traced),
+        _ => None,
+    };
     Ok(Rendered {
         prepared,
         prepare_ms,
         temporal: None,
         output,
+        traced,
     })
 }
 

@@ -8,9 +8,10 @@ mod per_pixel;
 pub(crate) mod planar;
 pub(crate) mod ray_trace;
 
-use catoptric_frame::{Traced, Work};
+use catoptric_frame::Work;
 use catoptric_scene::Scene;
 
+use crate::diagnostics::{Answer, Question};
 use crate::error::ReflectError;
 use crate::gpu::{Begin, Gpu, Recorder};
 use crate::options::{self, Settled};
@@ -18,7 +19,7 @@ use crate::spec::Options;
 use crate::stage::Stage;
 use crate::stage::options::{StageOptions, Surface};
 use crate::stage::variant::Variant;
-use crate::technique::{Built, DistanceLevel, Output, Properties, Technique};
+use crate::technique::{Built, Output, Properties, Technique};
 
 /// A technique of this family that stands ready for one scene and image size.
 pub(crate) trait ImageOrder {
@@ -42,19 +43,13 @@ pub(crate) trait ImageOrder {
     /// Work of the last frame: means per mirror pixel.
     fn work(&self, gpu: &Gpu, stage: &Stage) -> Work;
 
-    /// Pixel by pixel, what the last frame's rays took; `None` where none are followed step by
-    /// step.
-    fn traced(&self, _: &Gpu, _: &Stage) -> Option<Traced> {
-        None
-    }
-
     /// What else the reader of the last frame's numbers should know, in sentences.
     fn notes(&self, _: &Gpu, _: &Stage) -> Vec<String> {
         Vec::new()
     }
 
-    /// See [`Technique::distance_levels`].
-    fn distance_levels(&self, _: &Gpu, _: &Stage) -> Option<Vec<DistanceLevel>> {
+    /// See [`Technique::answer`].
+    fn answer(&self, _: &Gpu, _: &Stage, _: Question) -> Option<Answer> {
         None
     }
 }
@@ -210,11 +205,10 @@ impl Technique for Whole {
             t_junctions: None,
             work: self.technique.work(gpu, &self.stage),
             notes: self.technique.notes(gpu, &self.stage),
-            traced: self.technique.traced(gpu, &self.stage),
         }
     }
 
-    fn distance_levels(&self, gpu: &Gpu) -> Option<Vec<DistanceLevel>> {
-        self.technique.distance_levels(gpu, &self.stage)
+    fn answer(&self, gpu: &Gpu, question: Question) -> Result<Option<Answer>, ReflectError> {
+        Ok(self.technique.answer(gpu, &self.stage, question))
     }
 }

@@ -48,7 +48,7 @@ pub(crate) trait Recipe {
 /// A refinement that stands ready for one scene and image size.
 pub(crate) trait Refine {
     /// Takes over what moved; stage and search have been updated already.
-    fn update(&mut self, gpu: &Gpu, stage: &Stage);
+    fn update(&mut self, _: &Gpu, _: &Stage) {}
 
     /// Called before each frame is recorded; `warm`: the previous frame's answers help the search.
     fn begin_frame(&mut self, gpu: &Gpu, stage: &Stage, warm: bool);

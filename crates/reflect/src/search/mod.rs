@@ -16,7 +16,7 @@ use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder, compute, module};
 use crate::options::{Options, Settled};
 use crate::stage::Stage;
-use crate::stage::options::SearchOptions;
+use crate::stage::options::{Hidden, SearchOptions};
 use crate::stage::points::Points;
 use crate::stage::variant::Variant;
 use crate::technique::Properties;
@@ -55,22 +55,31 @@ impl Asked {
         }
     }
 
+    /// What it is like.
+    pub(crate) fn properties(&self) -> Properties {
+        Properties {
+            continues_hidden: self.common.hidden == Hidden::Extend,
+            ..self.recipe.properties()
+        }
+    }
+
     /// Why the mirrors of a scene cannot be searched.
     pub(crate) fn objection(&self, scene: &Scene) -> Option<String> {
         self.recipe.objection(&self.common, scene)
     }
 }
 
-/// A search that stands ready for one scene and image size.
+/// A search that stands ready for one scene and image size. One that reads nothing but the stage's
+/// G-buffer only records its search.
 pub(crate) trait Search {
     /// Takes over what moved; the stage has been updated already.
-    fn update(&mut self, gpu: &Gpu, stage: &Stage);
+    fn update(&mut self, _: &Gpu, _: &Stage) {}
 
     /// Called before each frame is recorded.
-    fn begin_frame(&mut self, gpu: &Gpu);
+    fn begin_frame(&mut self, _: &Gpu) {}
 
     /// Records what is made once a frame from the G-buffer, before any search.
-    fn record_build(&self, frame: &mut Recorder<'_>, stage: &Stage);
+    fn record_build(&self, _: &mut Recorder<'_>, _: &Stage) {}
 
     /// Records the search of a batch on one mirror, as the pass `search`.
     fn record_search(

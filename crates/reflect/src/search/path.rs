@@ -4,10 +4,10 @@
 //! is the answer, the records after it are the steps, with the level in place of the state and a
 //! distance of 1.
 
-use catoptric_scene::Scene;
 use encase::StorageBuffer;
-use glam::{Vec2, Vec3};
+use glam::Vec3;
 
+use crate::diagnostics::Visit;
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, storage_bytes};
 use crate::search::{Account, Asked, Context};
@@ -19,15 +19,6 @@ use crate::stage::variant::Variant;
 /// Steps that are kept.
 const MOST: u32 = 4096;
 
-/// A step of a search.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Visit {
-    /// Image coordinates of the texel, or of the centre of the sphere that was looked at.
-    pub at: Vec2,
-    /// Level of a hierarchy, the pixels being level 0.
-    pub level: u32,
-}
-
 /// The steps of a search for a world-space point on a mirror (an index), at most 4095. Empty for a
 /// search that does not tell its steps.
 ///
@@ -36,16 +27,14 @@ pub struct Visit {
 pub(crate) fn path(
     gpu: &Gpu,
     asked: &Asked,
-    scene: &Scene,
-    size: [u32; 2],
+    stage: &Stage,
     point: Vec3,
     mirror: usize,
 ) -> Result<Vec<Visit>, ReflectError> {
-    let stage = Stage::new(gpu, asked.common.stage, scene, size)?;
     let points_layout = points_layout(gpu);
     let mut search = asked.recipe.make(&Context {
         gpu,
-        stage: &stage,
+        stage,
         extends: asked.common.hidden == Hidden::Extend,
         points_layout: &points_layout,
         account: Account::Path,
@@ -64,8 +53,8 @@ pub(crate) fn path(
     search.begin_frame(gpu);
     gpu.run(|frame| {
         stage.begin(frame, Variant::AllLayers);
-        search.record_build(frame, &stage);
-        search.record_search(frame, &stage, mirror, &points, Variant::AllLayers);
+        search.record_build(frame, stage);
+        search.record_search(frame, stage, mirror, &points, Variant::AllLayers);
     });
     let records = points.read_found(gpu, MOST).into_iter().skip(1);
     let visits = records.take_while(|record| record.distance == 1.0);
@@ -79,7 +68,7 @@ pub(crate) fn path(
 #[cfg(test)]
 mod tests {
     use crate::testing::{Searched, gpu_or_skip, scene};
-    use crate::{parse, path};
+    use crate::{Answer, Question, parse, prepare};
 
     #[test]
     fn paths_are_as_long_as_the_counted_steps_and_end_at_the_answer() {
@@ -88,9 +77,13 @@ mod tests {
         for technique in ["linear", "ray-hierarchy(repair=enlarge)"] {
             let searched = Searched::new(&gpu, &scene, technique, size);
             let spec = parse(technique).expect("a technique");
+            let prepared = prepare(&gpu, &spec, &scene, size).expect("fits the device");
             for vertex in [0, 7] {
                 let point = scene.objects[0].mesh.positions[vertex];
-                let visits = path(&gpu, &spec, &scene, size, point, 0).expect("fits the device");
+                let question = Question::Path { point, mirror: 0 };
+                let Ok(Some(Answer::Path(visits))) = prepared.ask(question) else {
+                    panic!("{technique} tells its steps")
+                };
                 let count = vertex as u32 + 1;
                 let effort = searched.batches[0].read_efforts(&gpu, count)[vertex];
                 let found = searched.batches[0].read_found(&gpu, count)[vertex];

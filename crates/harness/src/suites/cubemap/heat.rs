@@ -36,7 +36,7 @@ pub fn pictures(studio: &Studio<'_>) -> anyhow::Result<Vec<Picture>> {
     for (label, options) in SHOWN {
         let spec = crate::run::load::parse(&format!("cubemap-trace({options})"))?;
         let rendered = crate::run::render::render(&studio.setup.gpu, &spec, &scene);
-        let traced = rendered.ok().and_then(|rendered| rendered.output.traced);
+        let traced = rendered.ok().and_then(|rendered| rendered.traced);
         maps.extend(traced.map(|traced| (label, traced)));
     }
     let counts = maps.iter().flat_map(|(_, traced)| traced.samples.pixels());

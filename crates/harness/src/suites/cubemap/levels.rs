@@ -3,7 +3,7 @@
 use anyhow::Context;
 use catoptric_frame::{Image, write_png_rgb8};
 use catoptric_metrics::maps::{Colormap, colorize};
-use catoptric_reflect::DistanceLevel;
+use catoptric_reflect::{Answer, DistanceLevel, Question};
 use catoptric_scene::Scene;
 
 use crate::output::PICTURES as FOLDER;
@@ -25,11 +25,10 @@ pub fn pictures(studio: &Studio<'_>) -> anyhow::Result<Vec<Picture>> {
     let name = studio.scene.unwrap_or("box");
     let scene = Scene::load(name, &crate::run::load::load_options(studio.common))?;
     let spec = crate::run::load::parse(TECHNIQUE)?;
-    let rendered = crate::run::render::render(&studio.setup.gpu, &spec, &scene);
-    let levels = rendered
-        .ok()
-        .and_then(|rendered| rendered.distance_levels());
-    let Some(levels) = levels else {
+    let Ok(rendered) = crate::run::render::render(&studio.setup.gpu, &spec, &scene) else {
+        return Ok(Vec::new());
+    };
+    let Some(Answer::DistanceLevels(levels)) = rendered.ask(Question::DistanceLevels)? else {
         return Ok(Vec::new());
     };
     let shown: Vec<&DistanceLevel> = levels.iter().step_by(STEP).collect();

@@ -49,10 +49,15 @@ const ABILITIES: [(&str, &str); 4] = [
     ("flat mirrors", "planar"),
 ];
 
+/// Whether a technique can follow a ray from mirror to mirror.
+fn can_bounce(technique: &str) -> bool {
+    catoptric_reflect::parse(technique).is_ok_and(|spec| spec.options().has("bounces"))
+}
+
 fn capabilities() -> Figure {
     let asked = |ability: &str, technique: &str| match technique.strip_suffix(')') {
         // What cubemap tracing does about mirrors in mirrors.
-        Some(options) if ability == IN_MIRRORS && technique.starts_with("cubemap-trace") => {
+        Some(options) if ability == IN_MIRRORS && can_bounce(technique) => {
             format!("{options},bounces=3)")
         }
         _ => technique.to_owned(),

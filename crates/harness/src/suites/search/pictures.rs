@@ -3,7 +3,7 @@
 use anyhow::Context;
 use catoptric_frame::png::srgb8_from_linear;
 use catoptric_frame::{Image, Status as Pixel, VertexResult, VertexState, write_png_rgb8};
-use catoptric_reflect::{Output, Visit};
+use catoptric_reflect::{Answer, Output, Question, Visit};
 use catoptric_scene::Scene;
 use glam::{IVec2, Vec2, Vec3};
 
@@ -156,7 +156,14 @@ fn path(
     let vertex = object.mesh.positions[result.vertex as usize];
     let size = crate::run::load::size(scene);
     let gpu = &studio.setup.gpu;
-    let visits = catoptric_reflect::path(gpu, &spec, scene, size, vertex, mirror)?;
+    let prepared = catoptric_reflect::prepare(gpu, &spec, scene, size)?;
+    let question = Question::Path {
+        point: vertex,
+        mirror,
+    };
+    let Some(Answer::Path(visits)) = prepared.ask(question)? else {
+        anyhow::bail!("{technique} is no search")
+    };
     let dim = |color: &Vec3| srgb8_from_linear(*color).map(|channel| channel / 2);
     let mut image = output.frame.color.map(dim);
     draw(&mut image, &visits, result.at);

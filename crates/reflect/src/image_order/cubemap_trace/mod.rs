@@ -26,13 +26,13 @@ use self::march::March;
 use self::pyramid::Pyramid;
 use super::ImageOrder;
 use super::cubemaps::{CubeMaps, Wanted, array_view, maps_layout};
+use crate::diagnostics::{Answer, Question};
 use crate::error::ReflectError;
 use crate::gpu::{FLOAT4, Gpu, Recorder, Slot, group, target, uniform, view};
 use crate::spec::Options;
 use crate::stage::Stage;
 use crate::stage::extent::diagonal;
 use crate::stage::variant::Variant;
-use crate::technique::DistanceLevel;
 
 /// Twin of `Trace` in `shared/rays.wesl`.
 #[derive(Clone, Copy, Debug, ShaderType)]
@@ -203,6 +203,15 @@ impl CubemapTrace {
         self.mirrors.iter().any(|mirror| mirror.pyramid.is_some())
     }
 
+    /// What the last frame's rays took, as [`march::traced`] reads it.
+    fn traced(&self, gpu: &Gpu) -> Traced {
+        let texels = gpu.read_texture(&self.effort);
+        let first = self.mirrors.first();
+        let maps = first.map_or(0, |mirror| mirror.maps.traced());
+        let size = [self.effort.width(), self.effort.height()];
+        march::traced(size, &texels, maps)
+    }
+
     fn record_maps(&self, frame: &mut Recorder<'_>, stage: &Stage) {
         for mirror in &self.mirrors {
             mirror.record(frame, stage);
@@ -246,8 +255,8 @@ impl ImageOrder for CubemapTrace {
         }
     }
 
-    fn work(&self, gpu: &Gpu, stage: &Stage) -> Work {
-        let traced = self.traced(gpu, stage).expect("rays are traced here");
+    fn work(&self, gpu: &Gpu, _: &Stage) -> Work {
+        let traced = self.traced(gpu);
         let pixels = traced.pixels() as f64;
         let mean = |counts: &Image<u32>| {
             let sum: f64 = counts.pixels().iter().map(|n| f64::from(*n)).sum();
@@ -261,11 +270,18 @@ impl ImageOrder for CubemapTrace {
         }
     }
 
-    fn distance_levels(&self, gpu: &Gpu, stage: &Stage) -> Option<Vec<DistanceLevel>> {
-        let mirror = self.mirrors.first()?;
-        let pyramid = mirror.pyramid.as_ref()?;
-        let far = mirror.maps.far(&stage.world.scene);
-        Some(pyramid.levels(gpu, &mirror.maps, far))
+    fn answer(&self, gpu: &Gpu, stage: &Stage, question: Question) -> Option<Answer> {
+        match question {
+            Question::Traced => Some(Answer::Traced(self.traced(gpu))),
+            Question::DistanceLevels => {
+                let mirror = self.mirrors.first()?;
+                let pyramid = mirror.pyramid.as_ref()?;
+                let far = mirror.maps.far(&stage.world.scene);
+                let levels = pyramid.levels(gpu, &mirror.maps, far);
+                Some(Answer::DistanceLevels(levels))
+            }
+            Question::Path { .. } => None,
+        }
     }
 
     fn notes(&self, gpu: &Gpu, stage: &Stage) -> Vec<String> {
@@ -276,32 +292,18 @@ impl ImageOrder for CubemapTrace {
                 format!("maps of {}: {}", mirror.name, places.join(", "))
             })
             .collect();
-        if let Some(traced) = self.traced(gpu, stage) {
-            let pixels = traced.pixels().max(1) as f64;
-            let share = |count: u64| format!("{:.2} %", 100.0 * count as f64 / pixels);
-            let by_map: Vec<_> = traced.resolved_by.iter().map(|n| share(*n)).collect();
-            notes.push(format!(
-                "resolved in the first map and those after it: {}; in none: {}",
-                by_map.join(", "),
-                share(traced.unresolved)
-            ));
-        }
+        let traced = self.traced(gpu);
+        let pixels = traced.pixels().max(1) as f64;
+        let share = |count: u64| format!("{:.2} %", 100.0 * count as f64 / pixels);
+        let by_map: Vec<_> = traced.resolved_by.iter().map(|n| share(*n)).collect();
+        notes.push(format!(
+            "resolved in the first map and those after it: {}; in none: {}",
+            by_map.join(", "),
+            share(traced.unresolved)
+        ));
         if let Tracer::Compute(lanes) = &self.tracer {
             notes.push(lanes.agreement().to_owned());
         }
         notes
-    }
-
-    fn traced(&self, gpu: &Gpu, _: &Stage) -> Option<Traced> {
-        let texels = gpu.read_texture(&self.effort);
-        let maps = self
-            .mirrors
-            .first()
-            .map_or(0, |mirror| mirror.maps.traced());
-        Some(march::traced(
-            [self.effort.width(), self.effort.height()],
-            &texels,
-            maps,
-        ))
     }
 }

@@ -1,10 +1,10 @@
 //! The acceleration pyramid: least and greatest world distance of 2 × 2 cells, level by level
 //! (Číž 2017, section 3.6).
 
+use crate::diagnostics::DistanceLevel;
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder, Slot, compute, group, layout, module, texture_array};
 use crate::image_order::cubemaps::{CubeMaps, FACES};
-use crate::technique::DistanceLevel;
 
 /// Side of the pass's workgroups, in cells.
 const GROUP: u32 = 8;

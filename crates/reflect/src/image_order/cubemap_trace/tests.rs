@@ -1,14 +1,13 @@
 //! On a software adapter: versions of the technique that must agree do.
 
-use catoptric_frame::{Frame, Status};
+use catoptric_frame::{Frame, Status, Traced};
 use catoptric_scene::Scene;
 
 use super::{MORE, MirrorMaps, trace_uniform};
 use crate::gpu::Gpu;
 use crate::image_order::cubemaps::{FACES, Wanted, maps_layout};
-use crate::parse;
-use crate::technique::Output;
 use crate::testing::{gpu_or_skip, scene, stage};
+use crate::{Answer, Output, Question, parse};
 
 const SIZE: [u32; 2] = [80, 60];
 
@@ -19,9 +18,18 @@ const SAME_BY_SKIPPING: f64 = 0.999;
 const SAME_BY_LANES: f64 = 0.995;
 
 fn render(gpu: &Gpu, scene: &Scene, technique: &str) -> Output {
+    traced(gpu, scene, technique).0
+}
+
+/// A frame, and what its rays took.
+fn traced(gpu: &Gpu, scene: &Scene, technique: &str) -> (Output, Traced) {
     let spec = parse(technique).expect("a technique");
     let mut prepared = crate::prepare(gpu, &spec, scene, SIZE).expect("fits the device");
-    prepared.render().expect("renders")
+    let output = prepared.render().expect("renders");
+    match prepared.ask(Question::Traced) {
+        Ok(Some(Answer::Traced(traced))) => (output, traced),
+        other => panic!("rays are followed: {other:?}"),
+    }
 }
 
 /// Share of the mirror pixels that have the same state and id in both.
@@ -127,12 +135,12 @@ fn lanes_agree_by_ballots_as_they_do_in_memory() {
     let lanes = |agree| {
         let technique =
             format!("cubemap-trace(size=128,stage=compute,placement=random,agree={agree})");
-        render(&gpu, &scene, &technique)
+        traced(&gpu, &scene, &technique)
     };
     let (ballot, memory) = (lanes("ballot"), lanes("memory"));
-    assert_eq!(same(&ballot.frame, &memory.frame), 1.0);
-    assert_eq!(ballot.traced, memory.traced);
-    assert_ne!(ballot.notes, memory.notes);
+    assert_eq!(same(&ballot.0.frame, &memory.0.frame), 1.0);
+    assert_eq!(ballot.1, memory.1);
+    assert_ne!(ballot.0.notes, memory.0.notes);
 }
 
 #[test]
@@ -160,12 +168,11 @@ fn maps_stand_where_the_scene_says() {
 #[test]
 fn what_is_counted_adds_up() {
     let Some(gpu) = gpu_or_skip() else { return };
-    let output = render(
+    let (output, traced) = traced(
         &gpu,
         &scene("sphere-table"),
         "cubemap-trace(size=32,objects=3,placement=random,accept=continuous)",
     );
-    let traced = output.traced.expect("rays are followed");
     let status = &output.frame.reflected.expect("all layers").status;
     let count = |state| status.pixels().iter().filter(|s| **s == state).count() as u64;
     assert_eq!(traced.resolved_by.len(), 3);
@@ -184,8 +191,7 @@ fn looking_closer_at_a_sign_change_is_counted() {
     let samples = |accept| {
         let technique =
             format!("cubemap-trace(size=64,objects=1,placement=random,accept={accept})");
-        let output = render(&gpu, &scene, &technique);
-        let traced = output.traced.expect("rays are followed");
+        let (output, traced) = traced(&gpu, &scene, &technique);
         assert_eq!(output.work.node_tests, None, "there is no pyramid");
         traced.samples
     };
@@ -223,8 +229,8 @@ fn a_pixel_that_no_map_resolves_is_filled() {
         let technique = format!(
             "cubemap-trace(size=32,objects=1,placement=random,length=0.3,unresolved={unresolved})"
         );
-        let output = render(&gpu, &scene, &technique);
-        let before = output.traced.expect("rays are followed").unresolved;
+        let (output, traced) = traced(&gpu, &scene, &technique);
+        let before = traced.unresolved;
         let status = &output.frame.reflected.expect("all layers").status;
         let states = status.pixels().iter();
         (

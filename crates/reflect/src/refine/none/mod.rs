@@ -41,8 +41,6 @@ struct AsItIs {
 }
 
 impl Refine for AsItIs {
-    fn update(&mut self, _gpu: &Gpu, _stage: &Stage) {}
-
     fn begin_frame(&mut self, gpu: &Gpu, stage: &Stage, warm: bool) {
         self.originals.begin_frame(gpu, stage, warm);
     }

@@ -139,8 +139,6 @@ impl Tessellation {
 }
 
 impl Refine for Tessellation {
-    fn update(&mut self, _gpu: &Gpu, _stage: &Stage) {}
-
     fn begin_frame(&mut self, gpu: &Gpu, stage: &Stage, warm: bool) {
         self.originals.begin_frame(gpu, stage, warm);
         self.passes.begin_frame(gpu);

@@ -127,15 +127,11 @@ struct Descent {
 }
 
 impl Search for Descent {
-    fn update(&mut self, _gpu: &Gpu, _stage: &Stage) {}
-
     fn begin_frame(&mut self, _gpu: &Gpu) {
         self.built.set(None);
     }
 
     /// The pyramid is made when a mirror is searched first.
-    fn record_build(&self, _frame: &mut Recorder<'_>, _stage: &Stage) {}
-
     fn record_search(
         &self,
         frame: &mut Recorder<'_>,

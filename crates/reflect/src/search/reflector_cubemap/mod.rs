@@ -202,10 +202,6 @@ impl Search for InMaps {
         }
     }
 
-    fn begin_frame(&mut self, _gpu: &Gpu) {}
-
-    fn record_build(&self, _frame: &mut Recorder<'_>, _stage: &Stage) {}
-
     fn record_search(
         &self,
         frame: &mut Recorder<'_>,

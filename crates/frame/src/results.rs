@@ -1,6 +1,7 @@
 //! Results that are not images: per-vertex answers, triangles, work.
 
 use glam::{DVec2, DVec3, Vec2};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::Image;
@@ -68,7 +69,8 @@ pub enum VertexClass {
 }
 
 /// Triangles of one frame, all mirrors together.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
 pub struct Triangles {
     /// Object triangles × mirrors, before refinement.
     #[serde(rename = "in")]
@@ -108,7 +110,8 @@ impl Traced {
 
 /// Work counters, device-independent: means per searched vertex or per mirror pixel; `None` for
 /// what a technique does not do, or does for none of them.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
 pub struct Work {
     /// Uses of the error function; of traced rays, triangles tested.
     pub evaluations: Option<f64>,

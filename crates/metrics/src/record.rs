@@ -1,6 +1,7 @@
 //! The pieces of a record that image comparison fills. Field names are those of the record's JSON;
 //! a value that does not apply is `None` (`null`), never a made-up 0.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::stats::Summary;
@@ -31,7 +32,8 @@ pub struct Comparison {
 }
 
 /// Coverage of the mirror pixels. Shares are of `mirror_pixels` and `None` if that is 0.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
 pub struct Coverage {
     /// Pixels that reference and technique both see as reflecting mirror.
     pub mirror_pixels: u64,
@@ -63,7 +65,8 @@ pub struct Coverage {
 }
 
 /// Pixels that disagree, as shares of the mirror pixels; the two add up to 1 − `object_agreement`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
 pub struct Mismatch {
     /// Next to (8 neighbours) a mirror pixel with another id in the reference.
     pub boundary: f64,
@@ -72,7 +75,8 @@ pub struct Mismatch {
 }
 
 /// Colour error, linear RGB unless said otherwise.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
 pub struct ColorError {
     /// Mean absolute error over pixels and channels.
     pub mae: f64,
@@ -91,7 +95,8 @@ pub struct ColorError {
 }
 
 /// Counts of pixels that hold NaN or infinity.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
 pub struct NonFinite {
     /// Colour of the reference.
     pub reference: u64,
@@ -102,7 +107,8 @@ pub struct NonFinite {
 }
 
 /// The picture in regions.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
 pub struct Regions {
     /// Colour over the whole picture.
     pub image: Option<ColorError>,
@@ -113,7 +119,8 @@ pub struct Regions {
 }
 
 /// A part of the mirror pixels.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
 pub struct Region {
     /// Mirror pixels in this part.
     pub mirror_pixels: u64,

@@ -3,10 +3,12 @@
 //! Percentiles interpolate linearly between the two nearest order statistics. Samples that are not
 //! finite are the caller's to count and leave out; here they propagate into the result.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Distribution of an error.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
 pub struct Summary {
     /// Arithmetic mean.
     pub mean: f64,
@@ -35,7 +37,8 @@ impl Summary {
 }
 
 /// Distribution of a duration, in the unit of its samples.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
 pub struct Timing {
     /// Median.
     pub median: f64,

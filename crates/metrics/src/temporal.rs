@@ -1,6 +1,7 @@
 //! Steadiness: how much a vertex' error changes from frame to frame.
 
 use glam::DVec2;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::stats::Summary;
@@ -9,7 +10,8 @@ use crate::stats::Summary;
 pub const JUMP_PX: f64 = 2.0;
 
 /// The record's `temporal`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
 pub struct Temporal {
     /// Frames in the sequence.
     pub frames: u64,
@@ -21,7 +23,8 @@ pub struct Temporal {
 }
 
 /// Distribution of the jitter.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
 pub struct Jitter {
     /// Arithmetic mean.
     pub mean: f64,

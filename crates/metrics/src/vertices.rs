@@ -2,13 +2,15 @@
 
 use catoptric_frame::{TrueVertex, VertexClass, VertexResult, VertexState};
 use glam::DVec2;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::MetricsError;
 use crate::stats::Summary;
 
 /// The record's `vertices`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
 pub struct VertexReport {
     /// (object vertex, mirror) pairs.
     pub searched: u64,
@@ -57,7 +59,8 @@ impl VertexReport {
 }
 
 /// Shares of offsets above a limit.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
 pub struct OffsetShare {
     /// Above 0.71 px: not the nearest pixel.
     pub over_0_71: f64,
@@ -68,7 +71,8 @@ pub struct OffsetShare {
 }
 
 /// Wrong decisions of the discard rule.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
 pub struct Discard {
     /// Truly hidden, but kept.
     pub false_keep: u64,

@@ -12,7 +12,7 @@ use crate::options::{Common, Format, seconds};
 use crate::output::check_writable;
 use crate::record::gate::Gate;
 use crate::record::path::lookup;
-use crate::record::{self, Record, Status, against, schema};
+use crate::record::{self, Record, Status, against, metrics, schema};
 use crate::run::interrupt::interrupted;
 use crate::run::load::parse;
 use crate::run::{Setup, measure, product};
@@ -160,11 +160,10 @@ fn recorded(scene: &str) -> &str {
 /// Earlier rows. Their techniques get the names they have now, whatever their options' order.
 fn read_baseline(path: &Path) -> anyhow::Result<Vec<Value>> {
     let mut rows = record::read(path)?;
-    let metrics = schema::metrics();
     for row in &mut rows {
-        let odd = metrics.iter().find_map(|metric| {
-            let value = lookup(row, metric)?;
-            (!value.is_null() && !value.is_number()).then_some((metric, value))
+        let odd = metrics::all().iter().find_map(|metric| {
+            let value = lookup(row, &metric.path)?;
+            (!value.is_null() && !value.is_number()).then_some((&metric.path, value))
         });
         if let Some((metric, value)) = odd {
             return Err(bad_input(format!(

@@ -2,46 +2,9 @@
 
 use serde_json::Value;
 
+use super::metric::{Better, Metric, Unit};
+use super::metrics;
 use super::path::lookup;
-
-/// Which way a metric is good.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Good {
-    Low,
-    High,
-}
-
-/// Metrics that can get better or worse. What is not listed (sizes, counts of what was there to
-/// do, times that were taken once) is judged by nobody.
-const JUDGED: [(&str, Good); 27] = [
-    ("object_agreement", Good::High),
-    ("coverage.missing", Good::Low),
-    ("coverage.extra", Good::Low),
-    ("coverage.unresolved", Good::Low),
-    ("coverage.cracks", Good::Low),
-    ("coverage.t_junctions", Good::Low),
-    ("angular_error_deg.mean", Good::Low),
-    ("angular_error_deg.p50", Good::Low),
-    ("angular_error_deg.p95", Good::Low),
-    ("angular_error_deg.p99", Good::Low),
-    ("angular_error_deg.max", Good::Low),
-    ("edge_offset_px.p50", Good::Low),
-    ("color.mae", Good::Low),
-    ("color.rmse", Good::Low),
-    ("color.psnr", Good::High),
-    ("color.ssim", Good::High),
-    ("color.flip", Good::Low),
-    ("vertices.failed", Good::Low),
-    ("vertices.recall", Good::High),
-    ("vertices.offset_px.mean", Good::Low),
-    ("vertices.offset_px.p99", Good::Low),
-    ("work.evaluations", Good::Low),
-    ("work.node_tests", Good::Low),
-    ("work.samples", Good::Low),
-    ("temporal.jitter_px.mean", Good::Low),
-    ("temporal.jumps", Good::Low),
-    ("time_ms.frame.median", Good::Low),
-];
 
 /// Adapters round differently by about this share; less than that is no change.
 const ROUNDING: f64 = 1e-3;
@@ -136,9 +99,9 @@ pub fn changes(before: &[Value], after: &[Value]) -> Vec<Change> {
             say(What::OtherScene);
             continue;
         }
-        let moved: Vec<What> = JUDGED
-            .iter()
-            .filter_map(|(path, good)| change(then, now, path, *good))
+        let judged = metrics::all().iter().filter(|metric| metric.judged);
+        let moved: Vec<What> = judged
+            .filter_map(|metric| change(then, now, metric))
             .collect();
         if moved.is_empty() && same_status {
             say(What::Unchanged);
@@ -156,10 +119,10 @@ fn text(row: &Value, key: &str) -> String {
 }
 
 /// How a metric moved; `None` within noise or where neither row has it.
-fn change(then: &Value, now: &Value, metric: &'static str, good: Good) -> Option<What> {
-    let value = |row: &Value| lookup(row, metric).and_then(Value::as_f64);
+fn change(then: &Value, now: &Value, metric: &'static Metric) -> Option<What> {
+    let value = |row: &Value| lookup(row, &metric.path).and_then(Value::as_f64);
     let (before, after) = (value(then), value(now));
-    let timed = metric.starts_with("time_ms");
+    let timed = metric.unit == Unit::Milliseconds;
     if timed && then["adapter"] != now["adapter"] {
         return None;
     }
@@ -181,14 +144,14 @@ fn change(then: &Value, now: &Value, metric: &'static str, good: Good) -> Option
             if (b - a).abs() <= noise {
                 return None;
             }
-            match (b < a) == (good == Good::Low) {
+            match (b < a) == (metric.better == Better::Low) {
                 true => Verdict::Better,
                 false => Verdict::Worse,
             }
         }
     };
     Some(What::Moved {
-        metric,
+        metric: &metric.path,
         before,
         now: after,
         verdict,
@@ -200,7 +163,6 @@ mod tests {
     use serde_json::json;
 
     use super::*;
-    use crate::record::schema;
 
     fn row(agreement: f64, ms: f64) -> Value {
         json!({ "scene": "s", "technique": "t", "resolution": [4, 4], "status": "ok", "adapter": null,
@@ -252,13 +214,5 @@ mod tests {
         let mut other = row(0.9, 10.0);
         other["resolution"] = json!([8, 8]);
         assert_eq!(first(&row(0.9, 10.0), &other), What::New);
-    }
-
-    #[test]
-    fn judged_metrics_exist() {
-        let known = schema::metrics();
-        for (path, _) in JUDGED {
-            assert!(known.iter().any(|metric| metric == path), "{path}");
-        }
     }
 }

@@ -5,8 +5,8 @@ use serde_json::Value;
 use crate::exit::bad_input;
 use crate::suggest::suggest;
 
+use super::metrics;
 use super::path::lookup;
-use super::schema;
 
 /// A bound on one metric.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,7 +28,7 @@ impl Gate {
             )));
         };
         let (path, bound) = (path.trim(), bound.trim());
-        if !is_metric(path) {
+        if metrics::at(path).is_none() {
             let hint = hint(path);
             return Err(bad_input(format!(
                 "--require {text}: no metric `{path}`{hint}"
@@ -69,30 +69,16 @@ impl Gate {
 /// The metric that is likely meant: one that ends in the path given, else a similar one; else
 /// where all metrics are named.
 fn hint(path: &str) -> String {
-    let known = schema::metrics();
+    let known = || metrics::all().iter().map(|metric| metric.path.as_str());
     let end = format!(".{path}");
-    let nearest = match known.iter().find(|name| name.ends_with(&end)) {
+    let nearest = match known().find(|name| name.ends_with(&end)) {
         Some(name) if !path.is_empty() => format!(" (did you mean `{name}`?)"),
-        _ => suggest(path, known.iter().map(String::as_str)),
+        _ => suggest(path, known()),
     };
     if nearest.is_empty() {
         return "; the heading of `compare --format csv` names them all".to_owned();
     }
     nearest
-}
-
-/// Whether a dotted path names a number of the record.
-pub fn is_metric(path: &str) -> bool {
-    let known = schema::metrics();
-    known.iter().any(|pattern| matches(pattern, path))
-}
-
-fn matches(pattern: &str, path: &str) -> bool {
-    pattern == path
-        || pattern.strip_suffix('*').is_some_and(|start| {
-            path.strip_prefix(start)
-                .is_some_and(|rest| !rest.is_empty())
-        })
 }
 
 #[cfg(test)]

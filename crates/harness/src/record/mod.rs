@@ -5,9 +5,12 @@
 pub mod against;
 pub mod file;
 pub mod gate;
+pub mod metric;
+pub mod metrics;
 pub mod path;
 pub mod row;
 pub mod schema;
+mod table;
 #[cfg(test)]
 pub(crate) mod tests;
 

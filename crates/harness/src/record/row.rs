@@ -1,12 +1,15 @@
 //! Records: one object a (scene, technique), as written to files and to stdout.
 //!
-//! The JSON is described by `schema/record.schema.json`. A field that does not apply, or was not
+//! `schema/record.schema.json` is derived from these types. A field that does not apply, or was not
 //! measured, is `null`, never a made-up 0.
+
+use std::collections::BTreeMap;
 
 use catoptric_frame::{Triangles, Work};
 use catoptric_metrics::{
     ColorError, Coverage, Mismatch, NonFinite, Regions, Summary, Temporal, Timing, VertexReport,
 };
+use schemars::JsonSchema;
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 use serde_json::Value;
@@ -15,9 +18,11 @@ use serde_json::Value;
 pub const SCHEMA_VERSION: u32 = 1;
 
 /// What is known about one technique on one scene.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
 pub struct Record {
-    /// [`SCHEMA_VERSION`].
+    /// Version of the record's shape.
+    #[schemars(extend("enum" = [SCHEMA_VERSION]))]
     pub schema_version: u32,
     /// Built-in name, or the scene file's stem.
     pub scene: String,
@@ -26,6 +31,7 @@ pub struct Record {
     /// Width and height in pixels.
     pub resolution: [u32; 2],
     /// By which truth the technique is judged.
+    #[schemars(extend("enum" = ["first-bounce", "full"]))]
     pub truth: &'static str,
     /// Whether there is anything to read below.
     pub status: Status,
@@ -75,7 +81,7 @@ pub struct Record {
 }
 
 /// Whether a row holds measurements.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {
     /// It does.
@@ -87,7 +93,8 @@ pub enum Status {
 }
 
 /// What rendered.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
 pub struct Adapter {
     /// As the driver calls it.
     pub name: String,
@@ -100,7 +107,8 @@ pub struct Adapter {
 }
 
 /// The record's `temporal`: how steady a technique is while things move, and what that costs.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
 pub struct Steadiness {
     /// Jitter and jumps of the reflection points.
     #[serde(flatten)]
@@ -116,7 +124,8 @@ pub struct Steadiness {
 }
 
 /// Agreement with the truth in which mirrors are seen in mirrors.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
 pub struct AgainstFull {
     /// Share of mirror pixels that show the right object.
     pub object_agreement: Option<f64>,
@@ -125,7 +134,8 @@ pub struct AgainstFull {
 }
 
 /// Times, milliseconds.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
 pub struct Times {
     /// Once, before the first frame.
     pub prepare: f64,
@@ -133,25 +143,28 @@ pub struct Times {
     pub frame: Option<Timing>,
     /// Median GPU time by pass, in order.
     #[serde(serialize_with = "passes")]
+    #[schemars(with = "Option<BTreeMap<String, f64>>")]
     pub passes: Option<Vec<(String, f64)>>,
     /// Why there is no time by pass.
     pub passes_reason: Option<String>,
     /// On the CPU before each frame, to build what it traces; `None` where nothing is built for
     /// each frame. Not part of the others.
     pub build: Option<Timing>,
-    /// As a clock on the wall sees it.
+    /// Wall-clock time.
     pub wall: Wall,
 }
 
-/// Wall time, milliseconds.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+/// Wall-clock time of a frame, milliseconds.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
 pub struct Wall {
     /// The middle sample.
     pub median: f64,
 }
 
 /// Where the numbers come from.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
 pub struct Meta {
     /// The command line.
     pub command: String,
@@ -174,7 +187,8 @@ pub struct Meta {
 }
 
 /// Every timing sample, in order, milliseconds.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
 pub struct Raw {
     /// GPU time.
     pub frame_ms: Vec<f64>,

@@ -1,38 +1,88 @@
-//! The record's JSON schema: checking values against it, and the metrics it knows.
-//!
-//! Covers the part of JSON Schema that `schema/record.schema.json` uses: `type`, `properties`,
-//! `required`, `additionalProperties`, `items`, `enum`, `minimum`, and `$ref` to `$defs`.
+//! The record's JSON schema: derived from the record's types, each number described by its row in
+//! the table of metrics, and what breaks it.
 
-use serde_json::Value;
+use schemars::generate::SchemaSettings;
+use serde_json::{Value, json};
+
+use super::metrics;
+use super::row::Record;
+
+/// Fields that this version of the record has not had from the start: earlier ones lack them.
+const LATER: [&str; 1] = ["resolved_by"];
 
 /// The schema of an array of records.
-pub const RECORDS: &str = include_str!("../../schema/record.schema.json");
-
-/// The parsed schema.
-///
-/// # Panics
-/// If the schema in the repository is not JSON: a bug.
 pub fn records() -> Value {
-    serde_json::from_str(RECORDS).expect("schema/record.schema.json is JSON")
+    let settings = SchemaSettings::draft2020_12().for_serialize();
+    let settings = settings.with(|settings| settings.inline_subschemas = true);
+    let schema = settings
+        .into_generator()
+        .into_root_schema_for::<Vec<Record>>();
+    let mut schema = json!({
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "catoptric records",
+        "description": "One object a (scene, technique), scenes outer, in command-line order. \
+                        Null: does not apply or was not measured.",
+        "type": "array",
+        "items": Value::from(schema)["items"],
+    });
+    if let Some(required) = schema["items"]["required"].as_array_mut() {
+        required.retain(|name| !LATER.iter().any(|later| name == later));
+    }
+    each_number(&mut schema["items"], "", &mut |path, number| {
+        if let Some(metric) = metrics::at(path) {
+            number["description"] = metric.what.clone().into();
+        }
+    });
+    schema
+}
+
+/// Dotted paths of all numbers in an array of records but those that say where they come from; the
+/// passes, whose names the schema does not know, are `time_ms.passes.*`.
+pub fn numbers(records: &Value) -> Vec<String> {
+    let mut paths = Vec::new();
+    each_number(&mut records["items"].clone(), "", &mut |path, _| {
+        if path != "schema_version" && !path.starts_with("meta.") {
+            paths.push(path.to_owned());
+        }
+    });
+    paths
+}
+
+/// Calls `then` with the path and the schema of every number.
+fn each_number(schema: &mut Value, path: &str, then: &mut impl FnMut(&str, &mut Value)) {
+    if allows(schema, "number") || allows(schema, "integer") {
+        then(path, schema);
+    }
+    let inside = |name: &str| match path {
+        "" => name.to_owned(),
+        _ => format!("{path}.{name}"),
+    };
+    if let Some(properties) = schema.get_mut("properties").and_then(Value::as_object_mut) {
+        for (name, property) in properties {
+            each_number(property, &inside(name), then);
+        }
+    }
+    if let Some(any) = schema.get_mut("additionalProperties") {
+        each_number(any, &inside("*"), then);
+    }
+}
+
+fn allows(schema: &Value, name: &str) -> bool {
+    match &schema["type"] {
+        Value::String(only) => only == name,
+        Value::Array(types) => types.contains(&name.into()),
+        _ => false,
+    }
 }
 
 /// Everything in which `value` breaks `schema`, each as `path: what`.
 pub fn violations(schema: &Value, value: &Value) -> Vec<String> {
     let mut found = Vec::new();
-    check(schema, schema, value, "", &mut found);
+    check(schema, value, "", &mut found);
     found
 }
 
-/// The schema itself, or the one that its `$ref` names.
-fn resolve<'s>(root: &'s Value, schema: &'s Value) -> &'s Value {
-    let target = schema["$ref"]
-        .as_str()
-        .and_then(|name| root.pointer(name.trim_start_matches('#')));
-    target.unwrap_or(schema)
-}
-
-fn check(root: &Value, schema: &Value, value: &Value, path: &str, found: &mut Vec<String>) {
-    let schema = resolve(root, schema);
+fn check(schema: &Value, value: &Value, path: &str, found: &mut Vec<String>) {
     let at = if path.is_empty() { "the whole" } else { path };
     let types: Vec<&str> = match &schema["type"] {
         Value::String(name) => vec![name.as_str()],
@@ -47,6 +97,18 @@ fn check(root: &Value, schema: &Value, value: &Value, path: &str, found: &mut Ve
         ));
         return;
     }
+    if let Some(branches) = schema["oneOf"].as_array() {
+        let kept = |branch: &&Value| violations(branch, value).is_empty();
+        if branches.iter().filter(kept).count() != 1 {
+            let value = brief(value);
+            found.push(format!("{at}: {value} is not one of {}", schema["oneOf"]));
+        }
+    }
+    if let Some(only) = schema.get("const")
+        && only != value
+    {
+        found.push(format!("{at}: {} is not {only}", brief(value)));
+    }
     if let Some(allowed) = schema["enum"].as_array()
         && !allowed.contains(value)
     {
@@ -60,13 +122,7 @@ fn check(root: &Value, schema: &Value, value: &Value, path: &str, found: &mut Ve
     }
     if let Some(items) = value.as_array() {
         for (index, item) in items.iter().enumerate() {
-            check(
-                root,
-                &schema["items"],
-                item,
-                &format!("{path}[{index}]"),
-                found,
-            );
+            check(&schema["items"], item, &format!("{path}[{index}]"), found);
         }
     }
     if let Some(object) = value.as_object() {
@@ -90,9 +146,9 @@ fn check(root: &Value, schema: &Value, value: &Value, path: &str, found: &mut Ve
                 schema["properties"].get(name),
                 &schema["additionalProperties"],
             ) {
-                (Some(property), _) => check(root, property, member, &inner, found),
+                (Some(property), _) => check(property, member, &inner, found),
                 (None, Value::Bool(false)) => found.push(format!("{inner}: unknown field")),
-                (None, additional) => check(root, additional, member, &inner, found),
+                (None, additional) => check(additional, member, &inner, found),
             }
         }
     }
@@ -122,44 +178,9 @@ fn is(value: &Value, name: &str) -> bool {
     }
 }
 
-/// Dotted paths of all numbers in a record, in the schema's order; the passes, whose names the
-/// schema does not know, are `time_ms.passes.*`.
-pub fn metrics() -> Vec<String> {
-    let mut paths = Vec::new();
-    let root = records();
-    numbers(&root, &root["items"], "", &mut paths);
-    paths.retain(|path| path != "schema_version" && !path.starts_with("meta."));
-    paths
-}
-
-fn numbers(root: &Value, schema: &Value, path: &str, paths: &mut Vec<String>) {
-    let schema = resolve(root, schema);
-    let allows = |name: &str| {
-        schema["type"] == name
-            || schema["type"]
-                .as_array()
-                .is_some_and(|types| types.contains(&name.into()))
-    };
-    if allows("number") || allows("integer") {
-        paths.push(path.to_owned());
-    }
-    let dot = if path.is_empty() { "" } else { "." };
-    for (name, property) in schema["properties"].as_object().into_iter().flatten() {
-        numbers(root, property, &format!("{path}{dot}{name}"), paths);
-    }
-    if schema["additionalProperties"].is_object() {
-        numbers(
-            root,
-            &schema["additionalProperties"],
-            &format!("{path}{dot}*"),
-            paths,
-        );
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use serde_json::json;
+    use std::path::Path;
 
     use super::*;
 
@@ -167,7 +188,8 @@ mod tests {
     fn violations_are_found() {
         let schema = json!({ "type": "object", "required": ["a"], "additionalProperties": false,
             "properties": { "a": { "type": ["integer", "null"], "minimum": 0 },
-                            "b": { "type": "array", "items": { "enum": ["x"] } } } });
+                            "b": { "type": "array", "items": { "enum": ["x"] } },
+                            "d": { "oneOf": [{ "const": "x" }, { "const": "y" }] } } });
         assert_eq!(
             violations(&schema, &json!({ "a": null, "b": ["x"] })),
             Vec::<String>::new()
@@ -179,6 +201,7 @@ mod tests {
             json!({ "a": 0.5 }),
             json!({ "a": 0, "b": ["y"] }),
             json!({ "a": 0, "c": 1 }),
+            json!({ "a": 0, "d": "z" }),
         ];
         for value in broken {
             assert_eq!(violations(&schema, &value).len(), 1, "{value}");
@@ -186,20 +209,71 @@ mod tests {
     }
 
     #[test]
-    fn metrics_are_listed_by_path() {
-        let metrics = metrics();
-        for path in [
-            "object_agreement",
-            "angular_error_deg.p99",
-            "vertices.offset_px.mean",
-            "time_ms.passes.*",
-        ] {
-            assert!(metrics.iter().any(|known| known == path), "{path}");
+    fn the_stored_schema_is_what_the_types_say() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("schema/record.schema.json");
+        let derived = format!("{:#}\n", records());
+        if std::env::var("CATOPTRIC_ACCEPT").is_ok_and(|value| value == "1") {
+            std::fs::write(&path, &derived).unwrap();
         }
+        let stored = std::fs::read_to_string(&path).unwrap();
         assert!(
-            !metrics
-                .iter()
-                .any(|known| known == "scene" || known == "reason")
+            stored == derived,
+            "schema/record.schema.json is not what the types say: CATOPTRIC_ACCEPT=1 stores it anew"
         );
+    }
+
+    #[test]
+    fn nothing_in_the_schema_goes_unchecked() {
+        const CHECKED: [&str; 9] = [
+            "additionalProperties",
+            "const",
+            "enum",
+            "items",
+            "minimum",
+            "oneOf",
+            "properties",
+            "required",
+            "type",
+        ];
+        /// What says how a value is written, or nothing at all; sizes of arrays.
+        const IGNORED: [&str; 6] = [
+            "$schema",
+            "description",
+            "format",
+            "maxItems",
+            "minItems",
+            "title",
+        ];
+        fn look(schema: &Value) {
+            for (keyword, value) in schema.as_object().into_iter().flatten() {
+                let known = [&CHECKED[..], &IGNORED[..]].concat();
+                assert!(known.contains(&keyword.as_str()), "{keyword}: {value}");
+                match keyword.as_str() {
+                    "properties" => value.as_object().unwrap().values().for_each(look),
+                    "oneOf" => value.as_array().unwrap().iter().for_each(look),
+                    "items" | "additionalProperties" => look(value),
+                    _ => {}
+                }
+            }
+        }
+        look(&records());
+    }
+
+    #[test]
+    fn recorded_runs_keep_to_the_schema() {
+        let results = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../results");
+        let mut found = 0;
+        for entry in std::fs::read_dir(results).unwrap() {
+            let path = entry.unwrap().path().join("record.json");
+            if !path.is_file() {
+                continue;
+            }
+            found += 1;
+            let text = std::fs::read_to_string(&path).unwrap();
+            let rows: Value = serde_json::from_str(&text).unwrap();
+            let broken = violations(&records(), &rows);
+            assert!(broken.is_empty(), "{}: {broken:#?}", path.display());
+        }
+        assert!(found > 0, "no recorded run");
     }
 }

@@ -2,6 +2,11 @@
 
 /// A number with four significant digits, or whole above a thousand.
 pub fn significant(value: f64) -> String {
+    rounded(value, 4)
+}
+
+/// A number with so many significant digits, or whole where it has more.
+pub fn rounded(value: f64, digits: u32) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }
@@ -9,7 +14,7 @@ pub fn significant(value: f64) -> String {
     if magnitude < -4.0 {
         return format!("{value:.2e}");
     }
-    let decimals = (3.0 - magnitude).clamp(0.0, 7.0) as usize;
+    let decimals = (f64::from(digits) - 1.0 - magnitude).clamp(0.0, 7.0) as usize;
     format!("{value:.decimals$}")
 }
 

@@ -9,7 +9,7 @@ use catoptric_frame::write_whole;
 use crate::record::Record;
 
 use super::facts::{self, Fact};
-use super::views::{self, SUMMARY, Scene, SummaryRow};
+use super::views::{self, Scene, SummaryRow};
 use super::{diagrams, pictures, words};
 
 /// Everything that the template shows.
@@ -21,7 +21,7 @@ struct Page<'r> {
     lead: Vec<String>,
     noise_floor: Option<String>,
     hero: Option<Hero<'r>>,
-    headings: &'static [(&'static str, &'static str)],
+    headings: Vec<(String, &'static str)>,
     summary: Vec<SummaryRow>,
     scatter: Option<String>,
     scenes: &'r [Scene],
@@ -62,7 +62,7 @@ fn render(rows: &[Record], wanted: usize) -> anyhow::Result<String> {
         lead: words::lead(rows, &techniques),
         noise_floor: words::noise_floor(rows),
         hero,
-        headings: &SUMMARY,
+        headings: views::headings(),
         summary: views::summary(rows, &techniques),
         scatter: diagrams::error_against_time(rows, &techniques).inline()?,
         scenes: &scenes,

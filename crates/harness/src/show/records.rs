@@ -3,9 +3,11 @@
 use serde_json::Value;
 
 use crate::options::Format;
+use crate::record::metric::Metric;
+use crate::record::metrics;
 use crate::record::path::{leaves, lookup};
 
-use super::number::significant;
+use super::number::rounded;
 use super::print as stdout;
 use super::table::{Table, cell};
 
@@ -23,58 +25,58 @@ pub fn text(rows: &[Value], format: Format) -> String {
     }
 }
 
-const PERCENT: f64 = 100.0;
-
-/// Heading, path and factor of the columns of the short table.
-const COLUMNS: [(&str, &str, f64); 11] = [
-    ("agree %", "object_agreement", PERCENT),
-    ("missing %", "coverage.missing", PERCENT),
-    ("extra %", "coverage.extra", PERCENT),
-    ("angle p50 °", "angular_error_deg.p50", 1.0),
-    ("angle p99 °", "angular_error_deg.p99", 1.0),
-    ("offset px", "vertices.offset_px.mean", 1.0),
-    ("failed", "vertices.failed", 1.0),
-    ("FLIP", "color.flip", 1.0),
-    ("evals", "work.evaluations", 1.0),
-    ("GPU ms", "time_ms.frame.median", 1.0),
-    ("wall ms", "time_ms.wall.median", 1.0),
+/// The numbers of the short table.
+const SHORT: [&str; 11] = [
+    "object_agreement",
+    "coverage.missing",
+    "coverage.extra",
+    "angular_error_deg.p50",
+    "angular_error_deg.p99",
+    "vertices.offset_px.mean",
+    "vertices.failed",
+    "color.flip",
+    "work.evaluations",
+    "time_ms.frame.median",
+    "time_ms.wall.median",
 ];
 
-/// The metrics that say most, and the reasons of rows without any.
-pub fn summary(rows: &[Value]) -> Table {
-    let headings = COLUMNS.iter().map(|(heading, ..)| *heading);
-    let mut table = Table::new(
-        ["scene", "technique"]
-            .into_iter()
-            .chain(headings)
-            .chain(["remark"]),
-    );
-    for row in rows {
-        let mut cells = vec![cell(row.get("scene")), cell(row.get("technique"))];
-        cells.extend(
-            COLUMNS
-                .iter()
-                .map(|(_, path, factor)| match lookup(row, path) {
-                    Some(value) if value.is_f64() => {
-                        significant(value.as_f64().unwrap_or(f64::NAN) * factor)
-                    }
-                    value => cell(value),
-                }),
-        );
-        cells.push(remark(row));
-        table.row(cells);
-    }
-    if table
-        .rows
-        .iter()
-        .all(|row| row.last().is_some_and(String::is_empty))
-    {
-        table.heading.pop();
-        for row in &mut table.rows {
-            row.pop();
+/// The numbers that say most, and the reasons of rows without any.
+fn summary(rows: &[Value]) -> Table {
+    let mut table = numbers(rows, &SHORT);
+    let remarks: Vec<String> = rows.iter().map(remark).collect();
+    if remarks.iter().any(|remark| !remark.is_empty()) {
+        table.heading.push("remark".to_owned());
+        for (row, remark) in table.rows.iter_mut().zip(remarks) {
+            row.push(remark);
         }
     }
     table
+}
+
+/// Scene, technique and the numbers at these paths, a line a row.
+pub fn numbers(rows: &[Value], paths: &[&str]) -> Table {
+    let metrics: Vec<&Metric> = paths.iter().map(|path| metrics::known(path)).collect();
+    let headings = metrics.iter().map(|metric| metric.column());
+    let first = ["scene", "technique"];
+    let mut table = Table::new(first.map(str::to_owned).into_iter().chain(headings));
+    for row in rows {
+        let numbers = metrics.iter().map(|metric| number(metric, row));
+        let first = first.map(|name| cell(row.get(name)));
+        table.row(first.into_iter().chain(numbers));
+    }
+    table
+}
+
+/// A metric of a row in its unit and digits.
+fn number(metric: &Metric, row: &Value) -> String {
+    let value = lookup(row, &metric.path);
+    match (value, metric.unit.digits()) {
+        (Some(Value::Number(number)), Some(digits)) if number.is_f64() => {
+            let value = number.as_f64().unwrap_or(f64::NAN);
+            rounded(value * metric.unit.factor(), digits)
+        }
+        _ => cell(value),
+    }
 }
 
 fn remark(row: &Value) -> String {
@@ -158,6 +160,18 @@ mod tests {
                 .unwrap()],
             "0.5"
         );
+    }
+
+    #[test]
+    fn every_number_of_a_column_is_a_metric() {
+        let row = crate::record::tests::measured("a", "linear").to_value();
+        for (path, value) in leaves(&row) {
+            let said = path == "schema_version" || path.starts_with("meta.");
+            assert!(
+                !value.is_number() || said || metrics::at(&path).is_some(),
+                "{path}"
+            );
+        }
     }
 
     #[test]

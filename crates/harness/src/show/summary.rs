@@ -12,13 +12,13 @@ use super::table::cell;
 
 /// Columns of the table: those that fit on a page.
 const COLUMNS: [&str; 7] = [
-    "agree %",
-    "missing %",
-    "angle p50 °",
-    "offset px",
-    "FLIP",
-    "evals",
-    "GPU ms",
+    "object_agreement",
+    "coverage.missing",
+    "angular_error_deg.p50",
+    "vertices.offset_px.mean",
+    "color.flip",
+    "work.evaluations",
+    "time_ms.frame.median",
 ];
 
 /// The table and where it comes from.
@@ -50,18 +50,7 @@ pub fn markdown(rows: &[Value], path: &Path) -> String {
 
 /// The table alone.
 pub fn table(rows: &[Value], format: Format) -> String {
-    let mut table = records::summary(rows);
-    let wanted = |heading: &String| {
-        ["scene", "technique"].contains(&heading.as_str()) || COLUMNS.contains(&heading.as_str())
-    };
-    let keep: Vec<bool> = table.heading.iter().map(wanted).collect();
-    let kept = |cells: &mut Vec<String>| {
-        let mut places = keep.iter();
-        cells.retain(|_| places.next() == Some(&true));
-    };
-    kept(&mut table.heading);
-    table.rows.iter_mut().for_each(kept);
-    table.write(format)
+    records::numbers(rows, &COLUMNS).write(format)
 }
 
 #[cfg(test)]

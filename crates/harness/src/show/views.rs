@@ -1,6 +1,10 @@
 //! The record as the page's template wants it: text that is ready to be shown.
 
-use crate::record::{Record, Status};
+use serde_json::Value;
+
+use crate::record::metric::Unit;
+use crate::record::path::lookup;
+use crate::record::{Record, Status, metrics};
 
 use super::facts::Fact;
 use super::number::{count, or_dash, percent, share, significant};
@@ -20,48 +24,32 @@ pub struct SummaryRow {
     pub technique: String,
     /// The technique's colour.
     pub color: &'static str,
-    /// As many as [`SUMMARY`] says; none for a row without numbers.
+    /// As many as there are [`headings`]; none for a row without numbers.
     pub cells: Vec<String>,
     /// Why there are no numbers.
     pub reason: String,
 }
 
-/// Headings of the summary's numbers, and what they mean.
-pub const SUMMARY: [(&str, &str); 9] = [
-    (
-        "agreement",
-        "share of mirror pixels that show the right object",
-    ),
-    (
-        "missing",
-        "share of mirror pixels without the reflection that is there",
-    ),
-    (
-        "extra",
-        "share of mirror pixels with a reflection that is not there",
-    ),
-    (
-        "angle p50",
-        "median angular error in degrees, where the object is right",
-    ),
-    (
-        "angle p99",
-        "99th percentile of the angular error in degrees",
-    ),
-    (
-        "offset",
-        "mean distance in pixels from found to true reflection point",
-    ),
-    ("FLIP", "perceived difference, 0 to 1, on the mirrors"),
-    (
-        "evaluations",
-        "mean uses of the error function for each searched vertex",
-    ),
-    (
-        "frame ms",
-        "median time of a frame, ± median absolute deviation",
-    ),
+/// The numbers of the summary.
+const SUMMARY: [&str; 9] = [
+    "object_agreement",
+    "coverage.missing",
+    "coverage.extra",
+    "angular_error_deg.p50",
+    "angular_error_deg.p99",
+    "vertices.offset_px.mean",
+    "color.flip",
+    "work.evaluations",
+    "time_ms.frame.median",
 ];
+
+/// Headings of the summary's numbers, and what they mean.
+pub fn headings() -> Vec<(String, &'static str)> {
+    let metrics = SUMMARY.iter().map(|path| metrics::known(path));
+    metrics
+        .map(|metric| (metric.column(), metric.what.as_str()))
+        .collect()
+}
 
 /// A scene's section.
 pub struct Scene {
@@ -177,31 +165,29 @@ pub fn summary(rows: &[Record], techniques: &[String]) -> Vec<SummaryRow> {
 }
 
 fn cells(row: &Record) -> Vec<String> {
-    let coverage = row.coverage.as_ref();
-    let time = row.time_ms.as_ref().map(|times| match times.frame {
+    let value = row.to_value();
+    let cell = |path: &&str| {
+        let number = lookup(&value, path).and_then(Value::as_f64);
+        match (*path, metrics::known(path).unit) {
+            ("time_ms.frame.median", _) => time(row),
+            // What a technique without vertices evaluates is another thing.
+            ("work.evaluations", _) if row.vertices.is_none() => or_dash(None),
+            (_, Unit::Share) => share(number),
+            _ => or_dash(number),
+        }
+    };
+    SUMMARY.iter().map(cell).collect()
+}
+
+/// Median and scatter of a frame's time.
+fn time(row: &Record) -> String {
+    let Some(times) = &row.time_ms else {
+        return or_dash(None);
+    };
+    match times.frame {
         Some(frame) => format!("{} ± {}", significant(frame.median), significant(frame.mad)),
         None => format!("{} (wall)", significant(times.wall.median)),
-    });
-    vec![
-        share(row.object_agreement),
-        share(coverage.and_then(|coverage| coverage.missing)),
-        share(coverage.and_then(|coverage| coverage.extra)),
-        or_dash(row.angular_error_deg.map(|angle| angle.p50)),
-        or_dash(row.angular_error_deg.map(|angle| angle.p99)),
-        or_dash(
-            row.vertices
-                .as_ref()
-                .and_then(|vertices| vertices.offset_px)
-                .map(|offset| offset.mean),
-        ),
-        or_dash(row.color.map(|color| color.flip)),
-        or_dash(
-            row.work
-                .filter(|_| row.vertices.is_some())
-                .and_then(|work| work.evaluations),
-        ),
-        time.unwrap_or_else(|| "–".to_owned()),
-    ]
+    }
 }
 
 /// Sections of the page, by scene.
@@ -317,117 +303,122 @@ fn passes(passes: &[(String, f64)]) -> Vec<Pass> {
         .collect()
 }
 
-fn work(row: &Record) -> Vec<Fact> {
-    let work = row.work.unwrap_or_default();
-    let (vertices, triangles) = (row.vertices.as_ref(), row.triangles.as_ref());
-    let per = if vertices.is_some() {
-        "vertex"
-    } else {
-        "mirror pixel"
-    };
-    let whole = |value: Option<u64>| value.map(count);
-    let mean = |value: Option<f64>| value.map(significant);
-    let named = [
-        ("vertices searched", whole(vertices.map(|v| v.searched))),
-        ("truly reflected", whole(vertices.and_then(|v| v.reflected))),
-        ("search failed", whole(vertices.and_then(|v| v.failed))),
-        ("evaluations", mean(work.evaluations)),
-        ("steps", mean(work.steps)),
-        ("node tests", mean(work.node_tests)),
-        ("samples", mean(work.samples)),
-        ("skips", mean(work.skips)),
-        ("triangles in", whole(triangles.map(|t| t.input))),
-        ("triangles drawn", whole(triangles.map(|t| t.drawn))),
-    ];
-    let per_one = ["evaluations", "steps", "node tests", "samples", "skips"];
-    let fact = |(name, value): (&str, Option<String>)| {
-        let name = match per_one.contains(&name) {
-            true => format!("{name} a {per}"),
-            false => name.to_owned(),
-        };
-        value.map(|value| Fact { name, value })
-    };
-    named.into_iter().filter_map(fact).collect()
-}
+/// Counted work, which is the same on every adapter.
+const WORK: [&str; 10] = [
+    "vertices.searched",
+    "vertices.reflected",
+    "vertices.failed",
+    "work.evaluations",
+    "work.steps",
+    "work.node_tests",
+    "work.samples",
+    "work.skips",
+    "triangles.in",
+    "triangles.drawn",
+];
 
-fn facts(row: &Record) -> Vec<Fact> {
-    let mut facts = Vec::new();
-    let mut fact = |name: &str, value: String| {
-        facts.push(Fact {
-            name: name.to_owned(),
-            value,
+fn work(row: &Record) -> Vec<Fact> {
+    let value = row.to_value();
+    let per = match row.vertices {
+        Some(_) => "vertex",
+        None => "mirror pixel",
+    };
+    let fact = |path: &&str| {
+        let number = lookup(&value, path).filter(|number| number.is_number())?;
+        let name = &metrics::known(path).name;
+        let each = ["work.evaluations", "work.steps", "work.node_tests"].contains(path);
+        Some(Fact {
+            name: match each {
+                true => format!("{name} a {per}"),
+                false => name.clone(),
+            },
+            value: text(number),
         })
     };
-    if let Some(color) = row.color {
-        let psnr = color
-            .psnr
-            .map_or_else(|| "equal".to_owned(), |psnr| format!("{psnr:.1} dB"));
-        fact(
-            "colour: MAE, RMSE, PSNR",
-            format!(
-                "{}, {}, {psnr}",
-                significant(color.mae),
-                significant(color.rmse)
-            ),
-        );
-        fact(
-            "colour: SSIM, FLIP",
-            format!("{}, {}", significant(color.ssim), significant(color.flip)),
-        );
+    WORK.iter().filter_map(fact).collect()
+}
+
+/// A number in a list of facts: whole ones with thin spaces.
+fn text(number: &Value) -> String {
+    match number.as_u64() {
+        Some(whole) => count(whole),
+        None => or_dash(number.as_f64()),
     }
-    if let Some(angle) = row.angular_error_deg {
-        let parts = [angle.mean, angle.p50, angle.p95, angle.p99, angle.max].map(significant);
-        fact("angle °: mean, p50, p95, p99, max", parts.join(", "));
-    }
-    if let Some(vertices) = &row.vertices {
-        let known = |value: Option<u64>| value.map_or_else(|| "–".to_owned(), count);
-        let parts = [
-            Some(vertices.searched),
-            vertices.reflected,
-            vertices.hidden,
-            vertices.failed,
-        ]
-        .map(known);
-        fact(
-            "vertices: searched, in view, hidden, failed",
-            parts.join(", "),
-        );
-        if let Some(offset) = vertices.offset_px {
-            let parts =
-                [offset.mean, offset.p50, offset.p95, offset.p99, offset.max].map(significant);
-            fact("offset px: mean, p50, p95, p99, max", parts.join(", "));
+}
+
+/// Numbers that stand in one line of a technique's facts.
+const FACTS: [&[&str]; 10] = [
+    &["color.mae", "color.rmse", "color.psnr"],
+    &["color.ssim", "color.flip"],
+    &["angular_error_deg"],
+    &[
+        "vertices.searched",
+        "vertices.reflected",
+        "vertices.hidden",
+        "vertices.failed",
+    ],
+    &["vertices.offset_px"],
+    &["vertices.recall"],
+    &["vertices.discard.false_keep", "vertices.discard.false_drop"],
+    &["triangles.in", "triangles.drawn"],
+    &["time_ms.frame"],
+    &["time_ms.wall.median", "time_ms.prepare"],
+];
+
+fn facts(row: &Record) -> Vec<Fact> {
+    let value = row.to_value();
+    FACTS
+        .iter()
+        .filter_map(|paths| fact(&value, paths))
+        .collect()
+}
+
+/// The numbers of a line; `None` where what they belong to is not there.
+fn fact(row: &Value, paths: &[&str]) -> Option<Fact> {
+    match paths {
+        ["time_ms.frame"] => spread(row, "time_ms.frame", "median", &["p5", "median", "p95"]),
+        [family] if metrics::at(family).is_none() => {
+            spread(row, family, "mean", &["mean", "p50", "p95", "p99", "max"])
         }
-        fact(
-            "recall",
-            vertices.recall.map_or_else(|| "–".to_owned(), percent),
-        );
-        if let Some(discard) = vertices.discard {
-            let parts = [discard.false_keep, discard.false_drop].map(count);
-            fact("drop rule: wrongly kept, wrongly dropped", parts.join(", "));
+        _ => {
+            let (parent, _) = paths.first()?.rsplit_once('.')?;
+            lookup(row, parent).filter(|parent| parent.is_object())?;
+            let columns: Vec<String> = (paths.iter())
+                .map(|path| metrics::known(path).column())
+                .collect();
+            let shown: Vec<String> = paths.iter().map(|path| alone(row, path)).collect();
+            Some(Fact {
+                name: columns.join(", "),
+                value: shown.join(", "),
+            })
         }
     }
-    if let Some(triangles) = &row.triangles {
-        fact(
-            "triangles: in, drawn",
-            format!("{}, {}", count(triangles.input), count(triangles.drawn)),
-        );
+}
+
+/// A number where it stands alone. There is no noise to compare a signal with where pictures are
+/// equal.
+fn alone(row: &Value, path: &str) -> String {
+    let value = lookup(row, path).filter(|value| value.is_number());
+    let metric = metrics::known(path);
+    match (value, metric.unit) {
+        (None, Unit::Decibels) => "equal".to_owned(),
+        (None, _) => or_dash(None),
+        (Some(value), Unit::Decibels) => format!("{:.1}", value.as_f64().unwrap_or(f64::NAN)),
+        (Some(value), Unit::Share) => percent(value.as_f64().unwrap_or(f64::NAN)),
+        (Some(value), _) => text(value),
     }
-    if let Some(times) = &row.time_ms {
-        if let Some(frame) = times.frame {
-            let parts = [frame.p5, frame.median, frame.p95].map(significant);
-            fact(
-                "frame ms: p5, median, p95",
-                format!("{} ({} samples)", parts.join(", "), frame.samples),
-            );
-        }
-        fact(
-            "wall, prepare ms",
-            format!(
-                "{}, {}",
-                significant(times.wall.median),
-                significant(times.prepare)
-            ),
-        );
-    }
-    facts
+}
+
+/// Some members of a family, under the heading of the one that stands for it.
+fn spread(row: &Value, family: &str, first: &str, members: &[&str]) -> Option<Fact> {
+    let values = lookup(row, family).filter(|values| values.is_object())?;
+    let numbers = members.iter().map(|member| values[*member].as_f64());
+    let numbers: Vec<String> = numbers.map(or_dash).collect();
+    let heading = metrics::known(&format!("{family}.{first}")).column();
+    let samples = values.get("samples").and_then(Value::as_u64);
+    let samples = samples.map_or_else(String::new, |samples| format!(" ({samples} samples)"));
+    Some(Fact {
+        name: format!("{heading}: {}", members.join(", ")),
+        value: numbers.join(", ") + &samples,
+    })
 }

@@ -1,6 +1,7 @@
 //! What a figure of a suite is: an axis, series of points along it, what is drawn against it, and
 //! what is said about it.
 
+use crate::record::metrics;
 use crate::show::plot::{Axis, Scale};
 
 use super::series::{Ask, Series};
@@ -44,8 +45,8 @@ impl Figure {
 /// A number of the record, drawn against the figure's axis.
 #[derive(Clone, Debug)]
 pub struct Quantity {
-    /// What it is, with its unit.
-    pub label: &'static str,
+    /// What it is here, with its unit; `None` for what it is everywhere.
+    pub called: Option<&'static str>,
     /// Where it stands in the record, such as `time_ms.frame.median`.
     pub path: &'static str,
     /// How it is laid out.
@@ -65,9 +66,9 @@ pub struct Guide {
 
 impl Quantity {
     /// On a logarithmic axis.
-    pub const fn log(label: &'static str, path: &'static str) -> Self {
+    pub const fn log(path: &'static str) -> Self {
         Self {
-            label,
+            called: None,
             path,
             scale: Scale::Log,
             guide: None,
@@ -75,9 +76,9 @@ impl Quantity {
     }
 
     /// On an axis of equal steps.
-    pub const fn linear(label: &'static str, path: &'static str) -> Self {
+    pub const fn linear(path: &'static str) -> Self {
         Self {
-            label,
+            called: None,
             path,
             scale: Scale::Linear,
             guide: None,
@@ -85,13 +86,27 @@ impl Quantity {
     }
 
     /// On an axis of equal steps around the values, where they differ by little.
-    pub const fn close(label: &'static str, path: &'static str) -> Self {
+    pub const fn close(path: &'static str) -> Self {
         Self {
-            label,
+            called: None,
             path,
             scale: Scale::Close,
             guide: None,
         }
+    }
+
+    /// Under a name of the figure's own, with its unit: where a technique counts something special.
+    pub fn called(self, label: &'static str) -> Self {
+        Self {
+            called: Some(label),
+            ..self
+        }
+    }
+
+    /// What it is, with its unit.
+    pub fn label(&self) -> String {
+        let usual = || metrics::known(self.path).label();
+        self.called.map_or_else(usual, str::to_owned)
     }
 
     /// With a number beside it.

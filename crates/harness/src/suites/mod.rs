@@ -96,7 +96,7 @@ pub fn find(name: &str) -> anyhow::Result<&'static Suite> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::record::gate::is_metric;
+    use crate::record::metrics;
 
     fn all() -> impl Iterator<Item = &'static Suite> {
         SUITES.into_iter().chain([&report::QUICK, &report::FULL])
@@ -112,17 +112,17 @@ mod tests {
                 for quantity in &figure.quantities {
                     let guide = quantity.guide.map(|guide| guide.path);
                     for path in [quantity.path].into_iter().chain(guide) {
-                        assert!(is_metric(path), "{what}: {path}");
+                        assert!(metrics::at(path).is_some(), "{what}: {path}");
                     }
                 }
                 for ask in figure.quotes.iter().filter_map(|quote| quote.ours) {
-                    assert!(is_metric(ask.path), "{what}: {}", ask.path);
+                    assert!(metrics::at(ask.path).is_some(), "{what}: {}", ask.path);
                     let series = |series: &Series| series.label == ask.series;
                     assert!(figure.series.iter().any(series), "{what}: {}", ask.series);
                 }
                 for point in figure.series.iter().flat_map(|series| &series.points) {
                     assert!(
-                        point.along.is_none_or(is_metric),
+                        point.along.is_none_or(|path| metrics::at(path).is_some()),
                         "{what}: {:?}",
                         point.along
                     );

@@ -196,10 +196,10 @@ fn plots(figure: &Figure, results: &Results<'_>) -> Vec<Plot> {
             }
         });
         Plot {
-            title: format!("{} against {}", quantity.label, figure.axis.label),
+            title: format!("{} against {}", quantity.label(), figure.axis.label),
             x: figure.axis.clone(),
             y: Axis {
-                label: quantity.label.to_owned(),
+                label: quantity.label(),
                 scale: quantity.scale.clone(),
             },
             series: series.chain(guide(figure, quantity, results)).collect(),
@@ -236,8 +236,8 @@ fn guide(figure: &Figure, quantity: &Quantity, results: &Results<'_>) -> Option<
 
 /// Every point with all the figure's quantities.
 fn table(figure: &Figure, results: &Results<'_>) -> Table {
-    let quantities = figure.quantities.iter().map(|quantity| quantity.label);
-    let heading = ["series", figure.axis.label.as_str(), "scene", "technique"];
+    let quantities = figure.quantities.iter().map(Quantity::label);
+    let heading = ["series", figure.axis.label.as_str(), "scene", "technique"].map(str::to_owned);
     let mut table = Table::new(heading.into_iter().chain(quantities));
     for series in &figure.series {
         for point in &series.points {

@@ -88,9 +88,9 @@ fn point(x: usize, scene: &str, technique: &str) -> Point {
 
 fn quantities() -> Vec<Quantity> {
     vec![
-        Quantity::log("angular error, median (°)", ANGLE),
-        Quantity::linear("share of pixels with the right object", AGREEMENT),
-        Quantity::linear("FLIP", FLIP),
+        Quantity::log(ANGLE),
+        Quantity::linear(AGREEMENT),
+        Quantity::linear(FLIP),
     ]
 }
 
@@ -117,11 +117,7 @@ fn table(scenes: &[&str]) -> Figure {
             scale: Scale::Names(labels.to_vec()),
         },
         series: scenes.iter().map(series).collect(),
-        quantities: [
-            quantities(),
-            vec![Quantity::log("time of a frame (ms)", FRAME_MS)],
-        ]
-        .concat(),
+        quantities: [quantities(), vec![Quantity::log(FRAME_MS)]].concat(),
         quotes: Vec::new(),
         analysis: |results| {
             results

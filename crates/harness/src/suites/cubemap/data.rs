@@ -24,10 +24,9 @@ pub const PIXELS: &str = "coverage.mirror_pixels";
 pub const SCENES: [&str; 2] = ["sphere-objects-1k", "box"];
 
 /// Beside the samples, where a pyramid is looked at.
-pub const NODES: Quantity = Quantity::log(
-    "cells of the pyramid looked at per mirror pixel",
-    NODE_TESTS,
-);
+pub fn nodes() -> Quantity {
+    Quantity::log(NODE_TESTS).called("cells of the pyramid looked at per mirror pixel")
+}
 
 /// A point in the suite's small size.
 pub fn point(x: usize, scene: &str, technique: impl Into<String>) -> Point {
@@ -48,12 +47,12 @@ pub fn names<'n>(label: &str, names: impl IntoIterator<Item = &'n str>) -> Axis 
 /// What is asked of every option: exactness, what is left open, work and time.
 pub fn quantities() -> Vec<Quantity> {
     vec![
-        Quantity::linear("share of pixels with the right object", AGREEMENT),
-        Quantity::linear("share of pixels unresolved", UNRESOLVED),
-        Quantity::log("angular error, median (°)", ANGLE),
-        Quantity::linear("FLIP", "color.flip"),
-        Quantity::log("samples per mirror pixel", SAMPLES),
-        Quantity::log("time of a frame (ms)", FRAME_MS),
+        Quantity::linear(AGREEMENT),
+        Quantity::linear(UNRESOLVED),
+        Quantity::log(ANGLE),
+        Quantity::linear("color.flip"),
+        Quantity::log(SAMPLES),
+        Quantity::log(FRAME_MS),
     ]
 }
 

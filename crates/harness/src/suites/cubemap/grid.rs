@@ -6,7 +6,7 @@ use crate::suites::results::Results;
 use crate::suites::series::{Ask, Point, Series};
 
 use super::data::{
-    AGREEMENT, FRAME_MS, FULL_AGREEMENT, NODES, SAMPLES, TRACE_MS, UNRESOLVED, names, ns_per_pixel,
+    AGREEMENT, FRAME_MS, FULL_AGREEMENT, SAMPLES, TRACE_MS, UNRESOLVED, names, nodes, ns_per_pixel,
     quantities,
 };
 
@@ -87,10 +87,10 @@ impl Grid {
             }
         }
         let mut quantities = quantities();
-        let full = Quantity::linear("the same, mirrors in mirrors", FULL_AGREEMENT);
+        let full = Quantity::linear(FULL_AGREEMENT);
         quantities.insert(1, full);
-        quantities.push(NODES);
-        quantities.push(Quantity::log("tracing pass (ms)", TRACE_MS));
+        quantities.push(nodes());
+        quantities.push(Quantity::log(TRACE_MS).called("tracing pass (ms)"));
         let [width, height] = self.windows[0];
         let quotes = match (scene, width, height) {
             (None, 160, 120) => quotes(),

@@ -5,7 +5,7 @@ use crate::show::plot::Axis;
 use crate::suites::figure::{Figure, Quantity};
 use crate::suites::results::Results;
 
-use super::data::{AGREEMENT, NODE_TESTS, NODES, SAMPLES, by_scene, names, quantities};
+use super::data::{AGREEMENT, NODE_TESTS, SAMPLES, by_scene, names, nodes, quantities};
 
 pub fn figures(scenes: &[&str]) -> Vec<Figure> {
     vec![
@@ -108,10 +108,7 @@ const PYRAMIDS: [(&str, &str); 6] = [
 
 fn pyramids(scenes: &[&str]) -> Figure {
     let mut quantities = quantities();
-    quantities.extend([
-        NODES,
-        Quantity::linear("skips per mirror pixel", "work.skips"),
-    ]);
+    quantities.extend([nodes(), Quantity::linear("work.skips")]);
     let figure = Figure {
         analysis: |results| {
             let mut sentences = compared(results, &PYRAMIDS, 0, 1, |off, published| {
@@ -182,7 +179,7 @@ const STAGES: [(&str, &str); 3] = [
 
 fn stages(scenes: &[&str]) -> Figure {
     let mut quantities = quantities();
-    quantities.push(NODES);
+    quantities.push(nodes());
     let figure = figure(
         "stages",
         "Fragments or compute shaders",

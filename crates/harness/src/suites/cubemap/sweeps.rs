@@ -91,7 +91,7 @@ fn objects(scenes: &[&str]) -> Figure {
 /// As everywhere, with agreement on an axis that shows how it rises.
 fn rising_quantities() -> Vec<Quantity> {
     let mut all = quantities();
-    all[0] = Quantity::close("share of pixels with the right object", AGREEMENT);
+    all[0] = Quantity::close(AGREEMENT);
     all
 }
 
@@ -111,9 +111,9 @@ fn rebuild(scenes: &[&str]) -> Figure {
         axis: Axis::log("texels a side of a face"),
         series: scenes.iter().map(series).collect(),
         quantities: vec![
-            Quantity::log("drawing the maps (ms)", MAPS_MS),
-            Quantity::log("building the pyramid (ms)", PYRAMID_MS),
-            Quantity::log("time of a frame (ms)", FRAME_MS),
+            Quantity::log(MAPS_MS).called("drawing the maps (ms)"),
+            Quantity::log(PYRAMID_MS).called("building the pyramid (ms)"),
+            Quantity::log(FRAME_MS),
         ],
         quotes: match scenes.contains(&QUOTED) {
             true => rebuild_quotes(),
@@ -205,11 +205,11 @@ fn bounces(scene: Option<&str>) -> Figure {
     );
     Figure {
         quantities: vec![
-            Quantity::linear("right object, mirrors in mirrors", FULL_AGREEMENT),
-            Quantity::linear("right object, first bounce", AGREEMENT),
-            Quantity::linear("share of pixels unresolved", UNRESOLVED),
-            Quantity::log("samples per mirror pixel", SAMPLES),
-            Quantity::log("time of a frame (ms)", FRAME_MS),
+            Quantity::linear(FULL_AGREEMENT),
+            Quantity::linear(AGREEMENT),
+            Quantity::linear(UNRESOLVED),
+            Quantity::log(SAMPLES),
+            Quantity::log(FRAME_MS),
         ],
         analysis: limits,
         ..values(figure, "rays", &BOUNCES, &scenes)

@@ -56,9 +56,9 @@ fn cells() -> Figure {
             points: [0.1, 0.25, 0.5, 1.0].into_iter().map(point).collect(),
         }],
         quantities: vec![
-            Quantity::log("median offset (px)", MEDIAN_PX),
-            Quantity::log("mean offset (px)", MEAN_PX),
-            Quantity::log("offset that 5 % of the vertices exceed (px)", P95_PX),
+            Quantity::log(MEDIAN_PX),
+            Quantity::log(MEAN_PX),
+            Quantity::log(P95_PX),
         ],
         quotes: Vec::new(),
         analysis: |results| {
@@ -104,10 +104,7 @@ fn constant(anchor: &'static str, title: &str, option: &str, values: &[f64]) -> 
             series("sphere", "prototype-sphere"),
             series("ellipsoid", "prototype-ellipsoid"),
         ],
-        quantities: vec![
-            Quantity::log("median offset (px)", MEDIAN_PX),
-            Quantity::log("offset that 5 % of the vertices exceed (px)", P95_PX),
-        ],
+        quantities: vec![Quantity::log(MEDIAN_PX), Quantity::log(P95_PX)],
         quotes: Vec::new(),
         analysis: constant_analysis,
     }

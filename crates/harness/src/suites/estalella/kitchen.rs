@@ -45,14 +45,14 @@ pub fn figures(scene: Option<&str>) -> Vec<Figure> {
 /// How right a picture is.
 fn picture_quantities() -> Vec<Quantity> {
     vec![
-        Quantity::linear("time of a frame (ms)", FRAME_MS),
-        Quantity::linear("search passes (ms)", SEARCH_MS),
-        Quantity::linear("vertices searched, all mirrors", SEARCHED),
-        Quantity::linear("right object (share of mirror pixels)", AGREEMENT),
-        Quantity::linear("share without the object seen there", MISSING),
-        Quantity::linear("share with an object too many", EXTRA),
-        Quantity::linear("mean FLIP", FLIP),
-        Quantity::log("mean offset (px)", MEAN_PX),
+        Quantity::linear(FRAME_MS),
+        Quantity::linear(SEARCH_MS).called("search passes (ms)"),
+        Quantity::linear(SEARCHED).called("vertices searched, all mirrors"),
+        Quantity::linear(AGREEMENT),
+        Quantity::linear(MISSING),
+        Quantity::linear(EXTRA),
+        Quantity::linear(FLIP),
+        Quantity::log(MEAN_PX),
     ]
 }
 
@@ -244,11 +244,11 @@ fn iterations(scene: Option<&str>) -> Figure {
         axis: Axis::linear("steps at most"),
         series: all,
         quantities: vec![
-            Quantity::log("median offset (px)", MEDIAN_PX),
-            Quantity::log("offset that 5 % of the vertices exceed (px)", P95_PX),
-            Quantity::linear("evaluations per vertex", EVALUATIONS),
-            Quantity::linear("right object (share of mirror pixels)", AGREEMENT),
-            Quantity::linear("search passes (ms)", SEARCH_MS),
+            Quantity::log(MEDIAN_PX),
+            Quantity::log(P95_PX),
+            Quantity::linear(EVALUATIONS).called("evaluations per vertex"),
+            Quantity::linear(AGREEMENT),
+            Quantity::linear(SEARCH_MS).called("search passes (ms)"),
         ],
         quotes: Vec::new(),
         analysis: iterations_analysis,

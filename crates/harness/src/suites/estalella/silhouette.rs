@@ -39,9 +39,9 @@ pub fn figure() -> Figure {
             series("linear", |hidden| format!("linear(hidden={hidden},depth=virtual)")),
         ],
         quantities: vec![
-            Quantity::linear("share without the object seen there", MISSING),
-            Quantity::linear("share with an object too many", EXTRA),
-            Quantity::linear("right object (share of mirror pixels)", AGREEMENT),
+            Quantity::linear(MISSING),
+            Quantity::linear(EXTRA),
+            Quantity::linear(AGREEMENT),
         ],
         quotes: Vec::new(),
         analysis,

@@ -194,15 +194,15 @@ fn growth(
     }
 }
 
-fn quantities(time: fn(&'static str, &'static str) -> Quantity) -> Vec<Quantity> {
+fn quantities(time: fn(&'static str) -> Quantity) -> Vec<Quantity> {
     vec![
-        time("time of a frame (ms)", FRAME_MS),
-        time("search pass (ms)", SEARCH_MS),
-        Quantity::linear("error evaluations or ray distances per vertex", EVALUATIONS),
-        Quantity::linear("node tests per vertex", NODE_TESTS),
-        Quantity::linear("steps per vertex", STEPS),
-        Quantity::linear("mean offset (px)", OFFSET),
-        Quantity::linear("searches that failed", "vertices.failed"),
+        time(FRAME_MS),
+        time(SEARCH_MS).called("search pass (ms)"),
+        Quantity::linear(EVALUATIONS).called("error evaluations or ray distances per vertex"),
+        Quantity::linear(NODE_TESTS).called("node tests per vertex"),
+        Quantity::linear(STEPS).called("steps per vertex"),
+        Quantity::linear(OFFSET),
+        Quantity::linear("vertices.failed"),
     ]
 }
 
@@ -224,12 +224,12 @@ fn exactness() -> Figure {
         axis: names(&scenes),
         series: series(&scenes, |point| point),
         quantities: vec![
-            Quantity::linear("mean offset (px)", OFFSET),
-            Quantity::linear("95th percentile of the offset (px)", OFFSET_P95),
-            Quantity::linear("share of offsets above 2 px", "vertices.offset_share.over_2"),
-            Quantity::linear("searches that failed", "vertices.failed"),
-            Quantity::linear("searches that met a hole", "vertices.hole"),
-            Quantity::linear("node tests per vertex", NODE_TESTS),
+            Quantity::linear(OFFSET),
+            Quantity::linear(OFFSET_P95),
+            Quantity::linear("vertices.offset_share.over_2"),
+            Quantity::linear("vertices.failed"),
+            Quantity::linear("vertices.hole"),
+            Quantity::linear(NODE_TESTS).called("node tests per vertex"),
         ],
         quotes: Vec::new(),
         analysis: claims::exactness,
@@ -253,16 +253,13 @@ fn motion(scenes: &[(&str, &str)]) -> Figure {
             ..point
         }),
         quantities: vec![
-            Quantity::linear("mean jitter (px)", JITTER_MEAN),
-            Quantity::linear(
-                "99th percentile of the jitter (px)",
-                "temporal.jitter_px.p99",
-            ),
-            Quantity::linear("largest jitter (px)", JITTER_MAX),
-            Quantity::linear("share of jumps", JUMPS),
-            Quantity::linear("time of a moving frame (ms)", MOVING_MS),
-            Quantity::linear("time of a still frame (ms)", STILL_MS),
-            Quantity::linear("steps per vertex, from the second frame", "temporal.steps"),
+            Quantity::linear(JITTER_MEAN),
+            Quantity::linear("temporal.jitter_px.p99"),
+            Quantity::linear(JITTER_MAX),
+            Quantity::linear(JUMPS),
+            Quantity::linear(MOVING_MS),
+            Quantity::linear(STILL_MS),
+            Quantity::linear("temporal.steps").called("steps per vertex, from the second frame"),
         ],
         quotes: Vec::new(),
         analysis: claims::motion,

@@ -71,9 +71,9 @@ pub fn three_modes(levels: u32, point: impl Fn(f64, String) -> Point) -> Vec<Ser
 
 pub fn accuracy() -> Vec<Quantity> {
     vec![
-        Quantity::linear("right object (share of mirror pixels)", AGREEMENT),
-        Quantity::log("median angular error (degrees)", ANGLE),
-        Quantity::linear("mean offset of edges (px)", EDGES),
+        Quantity::linear(AGREEMENT),
+        Quantity::log(ANGLE),
+        Quantity::linear(EDGES),
     ]
 }
 

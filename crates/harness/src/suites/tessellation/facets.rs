@@ -47,7 +47,7 @@ pub fn facets(scene: &str) -> Figure {
             &[NONE, "full, 2 levels", "adaptive, 2 levels"],
         ),
         series: vec![four, eight],
-        quantities: quantities([Quantity::log("time of a frame (ms)", FRAME_MS)]),
+        quantities: quantities([Quantity::log(FRAME_MS)]),
         quotes: vec![Quote {
             what: "a polygonal mirror",
             theirs: "“an example”",

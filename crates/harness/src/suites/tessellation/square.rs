@@ -35,7 +35,7 @@ pub fn straight(scene: &str) -> Figure {
             .to_owned(),
         axis: named("the square", &["its corners alone", "split five times"]),
         series: vec![series(SEARCH, points)],
-        quantities: quantities([Quantity::linear("time of a frame (ms)", FRAME_MS)]),
+        quantities: quantities([Quantity::linear(FRAME_MS)]),
         quotes: vec![Quote {
             what: "a square by the reflections of its corners",
             theirs: "“erroneous”",
@@ -87,11 +87,11 @@ pub fn by_level(scene: &str) -> Figure {
         axis: Axis::linear("level limit"),
         series: three_modes(LEVELS, |x, technique| Point::new(x, scene, technique)),
         quantities: vec![
-            Quantity::log("time of a frame (ms)", FRAME_MS),
-            Quantity::log("searches", SEARCHED),
-            Quantity::linear("right object (share of mirror pixels)", AGREEMENT),
-            Quantity::log("median angular error (degrees)", ANGLE).beside(WHOLE_PIXELS),
-            Quantity::linear("mean offset of edges (px)", EDGES),
+            Quantity::log(FRAME_MS),
+            Quantity::log(SEARCHED),
+            Quantity::linear(AGREEMENT),
+            Quantity::log(ANGLE).beside(WHOLE_PIXELS),
+            Quantity::linear(EDGES),
         ],
         quotes: vec![
             Quote {
@@ -252,10 +252,7 @@ pub fn wireframes(scene: &str) -> Figure {
             .to_owned(),
         axis: named("tessellation", &[NONE, "full, 5 levels", ADAPTIVE]),
         series: vec![series(SEARCH, points)],
-        quantities: quantities([
-            Quantity::linear("time of a frame (ms)", FRAME_MS),
-            Quantity::log("triangles drawn", DRAWN),
-        ]),
+        quantities: quantities([Quantity::linear(FRAME_MS), Quantity::log(DRAWN)]),
         quotes: vec![Quote {
             what: "full and adaptive tessellation",
             theirs: "“similar visual quality”",
@@ -291,8 +288,8 @@ pub fn visible_levels(scene: &str) -> Figure {
         axis: named("level", &["0", "2", "3", "4"]),
         series: vec![series(FULL, points)],
         quantities: quantities([
-            Quantity::linear("time of a frame (ms)", FRAME_MS),
-            Quantity::log("mean FLIP", FLIP),
+            Quantity::linear(FRAME_MS),
+            Quantity::log(FLIP),
         ]),
         quotes: vec![Quote {
             what: "after level 3",
@@ -360,10 +357,10 @@ pub fn cracks(scene: &str) -> Figure {
         }
     });
     let first = [
-        Quantity::linear("time of a frame (ms)", FRAME_MS),
-        Quantity::linear("pixels in cracks", CRACK_PIXELS),
-        Quantity::linear("widest crack (px)", "coverage.widest_crack_px"),
-        Quantity::linear("T-junctions", JUNCTIONS),
+        Quantity::linear(FRAME_MS),
+        Quantity::linear(CRACK_PIXELS),
+        Quantity::linear("coverage.widest_crack_px"),
+        Quantity::linear(JUNCTIONS),
     ];
     Figure {
         anchor: "crack",

@@ -62,10 +62,7 @@ pub fn coarse_and_fine(place: &Place) -> Figure {
                 .to_owned(),
         axis: named("tessellation", &[NONE, ADAPTIVE, "full, 4 levels"]),
         series: vec![series(SEARCH, points)],
-        quantities: quantities([
-            Quantity::log("time of a frame (ms)", FRAME_MS),
-            Quantity::log("triangles drawn", DRAWN),
-        ]),
+        quantities: quantities([Quantity::log(FRAME_MS), Quantity::log(DRAWN)]),
         quotes: vec![
             Quote {
                 what: "without tessellation",
@@ -159,9 +156,9 @@ pub fn thresholds(place: &Place) -> Figure {
         axis: named("threshold", &THRESHOLDS),
         series: vec![series(ADAPTIVE, points)],
         quantities: quantities([
-            Quantity::log("time of a frame (ms)", FRAME_MS),
-            Quantity::log("triangles drawn", DRAWN),
-            Quantity::linear("pixels in cracks", CRACK_PIXELS),
+            Quantity::log(FRAME_MS),
+            Quantity::log(DRAWN),
+            Quantity::linear(CRACK_PIXELS),
         ]),
         quotes: vec![
             Quote {
@@ -249,12 +246,12 @@ pub fn counts(place: &Place) -> Figure {
         axis: Axis::linear("level limit"),
         series: three_modes(LEVELS, |x, technique| place.point(x, technique)),
         quantities: vec![
-            Quantity::log("triangles drawn", DRAWN),
-            Quantity::log("searches", SEARCHED),
-            Quantity::log("time of a frame (ms)", FRAME_MS),
-            Quantity::linear("right object (share of mirror pixels)", AGREEMENT),
-            Quantity::log("median angular error (degrees)", ANGLE).beside(WHOLE_PIXELS),
-            Quantity::linear("mean offset of edges (px)", EDGES),
+            Quantity::log(DRAWN),
+            Quantity::log(SEARCHED),
+            Quantity::log(FRAME_MS),
+            Quantity::linear(AGREEMENT),
+            Quantity::log(ANGLE).beside(WHOLE_PIXELS),
+            Quantity::linear(EDGES),
         ],
         quotes: vec![Quote {
             what: "adaptive against full",

@@ -11,6 +11,7 @@ pub mod path;
 pub mod row;
 pub mod schema;
 mod table;
+pub mod technique;
 #[cfg(test)]
 pub(crate) mod tests;
 

@@ -1,6 +1,7 @@
 //! Load → trace the reference → render → compare → time → **record**.
 
 use catoptric_metrics::{Comparison, Timing, VertexReport};
+use catoptric_reflect::Spec;
 
 use crate::record::{AgainstFull, Raw, Record, Times, Wall};
 
@@ -11,6 +12,7 @@ use super::sampling::Samples;
 /// Fills a row from all that is known.
 pub fn record(
     mut row: Record,
+    spec: &Spec,
     rendered: &Rendered<'_>,
     compared: Compared,
     samples: Option<Samples>,
@@ -47,7 +49,7 @@ pub fn record(
         // With a refinement, those are not the scene's vertices alone.
         let searched = rendered.output.searched;
         row.vertices = Some(VertexReport { searched, ..report });
-        if catoptric_reflect::parse(&row.technique).is_ok_and(|spec| spec.refinement().is_some()) {
+        if spec.refinement().is_some() {
             row.meta.notes.push(
                 "vertices.searched counts the refinement's searches; the rest of vertices is about \
                  the scene's own vertices"

@@ -158,7 +158,7 @@ impl Setup {
             (Err(reason), ..) => blank(row, reason.clone()),
             (_, Err(reason), _) | (_, _, Err(reason)) => blank(row, reason),
             (Ok(rendered), Ok(compared), Ok(samples)) => {
-                fill::record(row, rendered, compared, samples)
+                fill::record(row, spec, rendered, compared, samples)
             }
         }
     }

@@ -1,9 +1,8 @@
 //! What a row's numbers mean, in sentences.
 
 use catoptric_metrics::paired;
-use catoptric_reflect::Properties;
 
-use crate::record::{Record, Status};
+use crate::record::{Record, Status, technique};
 
 use super::html::escape;
 use super::number::{count, percent, short};
@@ -69,7 +68,9 @@ fn coverage(row: &Record) -> Option<String> {
         .vertices
         .as_ref()
         .is_some_and(|vertices| vertices.hidden > Some(0));
-    let drops = hidden && row.triangles.is_some() && !like(&row.technique).continues_hidden;
+    let drops = hidden
+        && row.triangles.is_some()
+        && !technique::properties(&row.technique).continues_hidden;
     let mut parts = Vec::new();
     if let Some(missing) = coverage.missing.filter(|share| *share > 0.0) {
         let reason = match drops {
@@ -136,7 +137,7 @@ fn vertices(row: &Record) -> Option<String> {
             let far = vertices.offset_share.map_or(0.0, |share| share.over_5);
             if far > 0.01 {
                 text += &format!(". For {} of them it is more than 5 px", percent(far));
-                if like(&row.technique).walks {
+                if technique::properties(&row.technique).walks {
                     text += ": a walk from texel to texel ends where no neighbour is better";
                 }
             }
@@ -238,19 +239,10 @@ pub fn time_difference(a: &Record, b: &Record) -> Option<String> {
     })
 }
 
-/// What the technique of this name is like.
-fn like(technique: &str) -> Properties {
-    let spec = catoptric_reflect::parse(technique);
-    spec.map_or_else(|_| Properties::default(), |spec| spec.properties())
-}
-
-/// The technique that traces the reference's own rays on the graphics adapter.
-pub const CONTROL: &str = "ray-trace";
-
 /// What the control does not match: less than that, a difference between a technique and the
 /// truth says nothing. `None` where the control was not measured.
 pub fn noise_floor(rows: &[Record]) -> Option<String> {
-    let is_control = |row: &&Record| like(&row.technique).is_control;
+    let is_control = |row: &&Record| technique::properties(&row.technique).is_control;
     let control = || rows.iter().filter(is_control);
     let agreement = control().filter_map(|row| row.object_agreement);
     let agreement = agreement.reduce(f64::min)?;
@@ -278,7 +270,7 @@ pub fn noise_floor(rows: &[Record]) -> Option<String> {
 pub fn lead(rows: &[Record], techniques: &[String]) -> Vec<String> {
     techniques
         .iter()
-        .filter(|technique| !like(technique).is_control)
+        .filter(|technique| !technique::properties(technique).is_control)
         .filter_map(|technique| {
             let mut found: Vec<(f64, &str)> = rows
                 .iter()

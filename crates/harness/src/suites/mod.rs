@@ -37,6 +37,7 @@ mod results;
 pub mod runner;
 mod search;
 mod series;
+mod shelf;
 mod suite;
 mod tessellation;
 

@@ -1,12 +1,14 @@
 //! `catoptric bench papers`: the techniques of all four papers side by side, in one table and, scene
 //! by scene, error against time.
 
+use crate::record::technique::properties;
 use crate::show::number::percent;
 use crate::show::plot::{Axis, Scale};
 
 use crate::suites::figure::{Figure, Quantity};
 use crate::suites::results::Results;
 use crate::suites::series::{Point, Series};
+use crate::suites::shelf;
 use crate::suites::suite::{Asked, Budget, Layout, Suite};
 
 /// The suite.
@@ -29,33 +31,24 @@ const ANGLE: &str = "angular_error_deg.p50";
 const AGREEMENT: &str = "object_agreement";
 const FLIP: &str = "color.flip";
 
-/// What all are held against.
-const CONTROL: &str = "ray-trace";
-
 /// Label and technique, paper by paper: Szabo's searches and refinements (to level 2, where the scene
 /// of most triangles, `planar`, has 820 000), Estalella's as the paper runs them, what games use, Číž's as published and as we correct it, and the control.
 const TECHNIQUES: [(&str, &str); 12] = [
-    ("linear", "linear"),
-    ("ray hierarchy", "ray-hierarchy(repair=enlarge)"),
+    shelf::LINEAR,
+    shelf::RAY_HIERARCHY,
     ("linear+full", "linear+full(level=2)"),
     ("linear+adaptive", "linear+adaptive(level=2)"),
-    (
-        "reflector cubemap",
-        "reflector-cubemap(hidden=extend,depth=virtual)",
-    ),
+    shelf::REFLECTOR_CUBEMAP,
     (
         "reflector cubemap+grid",
         "reflector-cubemap(hidden=extend,depth=virtual)+grid",
     ),
-    ("environment map", "environment-map"),
-    ("environment map, redrawn", "environment-map(update=frame)"),
-    ("planar", "planar"),
-    ("cubemap trace, published", "cubemap-trace(accept=any)"),
-    (
-        "cubemap trace",
-        "cubemap-trace(sampling=texel,pyramid=sound)",
-    ),
-    ("ray trace (control)", CONTROL),
+    shelf::ENVIRONMENT_MAP,
+    shelf::ENVIRONMENT_MAP_REDRAWN,
+    shelf::PLANAR,
+    shelf::CUBEMAP_PUBLISHED,
+    shelf::CUBEMAP,
+    shelf::CONTROL,
 ];
 
 /// Scenes of all four papers.
@@ -131,7 +124,7 @@ fn table(scenes: &[&str]) -> Figure {
 
 fn best(results: &Results<'_>, series: &Series) -> Option<String> {
     let points = series.points.iter();
-    let points = points.filter(|point| point.technique != CONTROL);
+    let points = points.filter(|point| !properties(&point.technique).is_control);
     let known = points.filter_map(|point| Some((results.value(point, AGREEMENT)?, point)));
     let (agreement, point) = known.max_by(|a, b| a.0.total_cmp(&b.0))?;
     Some(format!(
@@ -170,7 +163,7 @@ fn front(results: &Results<'_>) -> Option<String> {
     let series = results.series().iter();
     let known = series.filter_map(|series| {
         let point = series.points.first()?;
-        let is_control = point.technique == CONTROL;
+        let is_control = properties(&point.technique).is_control;
         let place = (
             results.value(point, FRAME_MS)?,
             results.value(point, ANGLE)?,

@@ -2,11 +2,12 @@
 
 use catoptric_scene::LoadOptions;
 
+use crate::record::technique::refines;
 use crate::show::plot::{Axis, Scale};
-use crate::show::words::CONTROL;
 
 use super::figure::Figure;
 use super::series::{Point, Series};
+use super::shelf;
 use super::suite::{Asked, Budget, Layout, Suite};
 
 /// A handful of scenes, small pictures.
@@ -51,11 +52,11 @@ const QUICK_SCENES: [&str; 8] = [
 /// Both published searches, what games use instead, the mirrored eye for flat mirrors, and the
 /// control.
 const TECHNIQUES: [&str; 5] = [
-    "linear",
-    "ray-hierarchy(repair=enlarge)",
-    "environment-map",
-    "planar",
-    CONTROL,
+    shelf::LINEAR.1,
+    shelf::RAY_HIERARCHY.1,
+    shelf::ENVIRONMENT_MAP.1,
+    shelf::PLANAR.1,
+    shelf::CONTROL.1,
 ];
 
 /// Techniques on the scenes that show best what they are about: all of them on all scenes would take
@@ -67,18 +68,16 @@ const FEATURED: [(&str, &[&str]); 5] = [
         "linear+adaptive(level=3)",
         &["sphere-square", "sphere-table"],
     ),
-    // The residual that 32 bits can resolve.
     (
-        "linear(residual=cross,neighbours=8)",
+        shelf::LINEAR_CROSS.1,
         &["sphere-objects-20k", "spheres", "ellipsoid", "bowl"],
     ),
-    // As its paper runs it: a triangle that the mirror hides in part is drawn.
     (
-        "reflector-cubemap(depth=virtual,hidden=extend)",
+        shelf::REFLECTOR_CUBEMAP.1,
         &["sphere-table", "ellipsoid", "sphere-touching"],
     ),
     (
-        "cubemap-trace(pyramid=sound,sampling=texel)",
+        shelf::CUBEMAP.1,
         &["sphere-table", "bowl", "sphere-touching"],
     ),
 ];
@@ -92,10 +91,6 @@ fn techniques(scene: &str, everywhere: bool) -> Vec<&'static str> {
     let all = TECHNIQUES[..1].iter().copied();
     let all = all.chain(featured.map(|(technique, _)| *technique));
     all.chain(TECHNIQUES[1..].iter().copied()).collect()
-}
-
-fn refines(technique: &str) -> bool {
-    catoptric_reflect::parse(technique).is_ok_and(|spec| spec.refinement().is_some())
 }
 
 /// The scene asked for, else the suite's own.

@@ -7,6 +7,7 @@ use crate::suites::figure::{Figure, Quantity};
 use crate::suites::results::Results;
 use crate::suites::results::{power, power_error};
 use crate::suites::series::{Point, Series};
+use crate::suites::shelf;
 
 use super::data::{
     AGREEMENT, FRAME_MS, FULL_AGREEMENT, SAMPLES, TRACE_MS, UNRESOLVED, names, point,
@@ -18,18 +19,15 @@ const FLAT: f64 = 0.05;
 
 /// Label and technique.
 const ALL: [(&str, &str); 9] = [
-    ("linear", "linear"),
-    ("linear, cross", "linear(residual=cross,neighbours=8)"),
-    ("ray hierarchy", "ray-hierarchy(repair=enlarge)"),
-    ("environment map", "environment-map"),
-    ("environment map, redrawn", "environment-map(update=frame)"),
-    ("planar", "planar"),
-    ("cubemap trace, published", "cubemap-trace(accept=any)"),
-    (
-        "cubemap trace",
-        "cubemap-trace(sampling=texel,pyramid=sound)",
-    ),
-    ("ray trace (control)", "ray-trace"),
+    shelf::LINEAR,
+    shelf::LINEAR_CROSS,
+    shelf::RAY_HIERARCHY,
+    shelf::ENVIRONMENT_MAP,
+    shelf::ENVIRONMENT_MAP_REDRAWN,
+    shelf::PLANAR,
+    shelf::CUBEMAP_PUBLISHED,
+    shelf::CUBEMAP,
+    shelf::CONTROL,
 ];
 
 pub fn figures(scene: Option<&str>) -> Vec<Figure> {

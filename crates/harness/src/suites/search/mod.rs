@@ -12,11 +12,11 @@ mod data;
 mod pictures;
 
 use crate::show::plot::{Axis, Scale};
-use crate::show::words::CONTROL;
 
 use crate::suites::figure::{Figure, Quantity, Quote};
 use crate::suites::results::Results;
 use crate::suites::series::{Ask, Point, Series};
+use crate::suites::shelf::CONTROL;
 use crate::suites::suite::{Asked, Budget, Layout, Suite};
 
 use self::data::{
@@ -86,7 +86,7 @@ fn series(scenes: &[(&str, &str)], point: impl Fn(Point) -> Point) -> Vec<Series
 
 /// What an application would use instead, and the harness's own noise.
 fn control(scenes: &[(&str, &str)]) -> Series {
-    let point = |(x, (_, scene)): (usize, &(&str, &str))| Point::new(x as f64, *scene, CONTROL);
+    let point = |(x, (_, scene)): (usize, &(&str, &str))| Point::new(x as f64, *scene, CONTROL.1);
     Series {
         label: "rays traced (control)".to_owned(),
         points: scenes.iter().enumerate().map(point).collect(),

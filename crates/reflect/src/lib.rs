@@ -38,6 +38,7 @@ pub use spec::{Options, Spec, SpecError};
 pub use technique::{Family, Output, Properties, TechniqueInfo};
 
 use catoptric_scene::Scene;
+
 use registry::Asked;
 
 /// Whether a technique can draw a scene.

@@ -93,7 +93,8 @@ pub struct Properties {
     pub walks: bool,
     /// Triangles are split.
     pub splits_triangles: bool,
-    /// Vertices are interpolated between points that are searched.
+    /// Vertices have their answers from points of a grid that are searched: what a search tells of a
+    /// point, such as a hole, is told of no vertex.
     pub interpolates: bool,
     /// A frame is found more easily after another one.
     pub carries_over: bool,

@@ -60,11 +60,14 @@ words! {
 options! {
     /// Options of every search.
     pub(crate) struct SearchOptions {
-        /// what the virtual triangles are depth-tested by; with a +grid that interpolates always virtual
+        /// what the virtual triangles are depth-tested by; with a +grid that interpolates always
+        /// virtual
         depth: Depth,
-        /// triangles with a hidden vertex are dropped, or drawn with the vertex continued behind the tangent plane unless all three are hidden
+        /// triangles with a hidden vertex are dropped, or drawn with the vertex continued behind
+        /// the tangent plane unless all three are hidden
         hidden: Hidden,
-        /// the reflected surfaces, those with the edges of the virtual triangles, or how often each was split
+        /// the reflected surfaces, those with the edges of the virtual triangles, or how often each
+        /// was split
         show: Show,
         ..stage: StageOptions,
     }

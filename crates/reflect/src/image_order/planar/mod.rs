@@ -19,6 +19,7 @@ use crate::stage::view::ViewUniform;
 use crate::technique::{Info, Named};
 
 options! {
+    /// The technique; it has no options of its own.
     pub(crate) struct Planar {}
 }
 

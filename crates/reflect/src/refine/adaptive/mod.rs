@@ -10,10 +10,12 @@ use crate::options::options;
 use crate::technique::{Info, Named, Properties};
 
 options! {
+    /// The refinement, as its options describe it.
     pub(crate) struct Adaptive {
         /// how often a triangle may be split
         level: u32 = 5 in 0..=DEEPEST,
-        /// edge error from which a triangle is split: sin²(δ/2) of the angle δ by which the mirror's normal at the middle misses; 0 splits all, 1 none
+        /// edge error from which a triangle is split: sin²(δ/2) of the angle δ by which the
+        /// mirror's normal at the middle misses; 0 splits all, 1 none
         threshold: f64 = 0.001 in 0.0..=1.0,
     }
 }

@@ -10,6 +10,7 @@ use crate::options::options;
 use crate::technique::{Info, Named, Properties};
 
 options! {
+    /// The refinement, as its options describe it.
     pub(crate) struct Full {
         /// how often every triangle is split that is not hidden
         level: u32 = 3 in 0..=DEEPEST,

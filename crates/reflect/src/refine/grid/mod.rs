@@ -11,6 +11,7 @@ mod tests;
 
 use catoptric_frame::{Triangles, VertexResult};
 use catoptric_scene::{Scene, Shape};
+use encase::ShaderType;
 use glam::{DVec3, Vec3};
 
 use super::{Context, Recipe, Refine};
@@ -25,9 +26,9 @@ use crate::stage::raster::Raster;
 use crate::stage::variant::Variant;
 use crate::technique::{Info, Named, Properties};
 use cells::{Cells, Pose};
-use encase::ShaderType;
 
 options! {
+    /// The refinement, as its options describe it.
     pub(crate) struct Grid {
         /// grid vertices as a share of the mesh's; 1 searches every vertex of the mesh
         fraction: f64 = 0.1 in 0.0..=1.0,

@@ -29,7 +29,6 @@ use crate::stage::Stage;
 use crate::stage::options::Hidden;
 use crate::stage::points::{Efforts, Found};
 use crate::stage::variant::Variant;
-
 use passes::Passes;
 pub(crate) use plan::DEEPEST;
 use plan::Plan;

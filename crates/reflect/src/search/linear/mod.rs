@@ -28,8 +28,10 @@ words! {
 }
 
 options! {
+    /// The search, as its options describe it.
     pub(crate) struct Linear {
-        /// where the walk starts: the mirror's projected centre, its projected bounding box's, or the previous frame's answer
+        /// where the walk starts: the mirror's projected centre, its projected bounding box's, or
+        /// the previous frame's answer
         start: Start,
         /// texels compared with in each step
         neighbours: Neighbours,

@@ -9,8 +9,10 @@ use crate::options::options;
 use crate::technique::{Info, Named, Properties};
 
 options! {
+    /// The search, as its options describe it.
     pub(crate) struct Newton {
-        /// where the iteration starts: the mirror's projected centre, its projected bounding box's, or the previous frame's answer
+        /// where the iteration starts: the mirror's projected centre, its projected bounding box's,
+        /// or the previous frame's answer
         start: Start,
     }
 }

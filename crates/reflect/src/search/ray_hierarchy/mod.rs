@@ -18,15 +18,14 @@ use std::cell::Cell;
 use catoptric_scene::Scene;
 use encase::ShaderType;
 
+use super::{Context, Pipelines, Recipe, Search};
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder, Slot, group, layout, uniform, view};
+use crate::options::{options, words};
 use crate::stage::Stage;
+use crate::stage::options::{Hidden, SearchOptions};
 use crate::stage::points::Points;
 use crate::stage::variant::Variant;
-
-use super::{Context, Pipelines, Recipe, Search};
-use crate::options::{options, words};
-use crate::stage::options::{Hidden, SearchOptions};
 use crate::technique::{Info, Named, Properties};
 use pyramid::Pyramid;
 
@@ -42,8 +41,10 @@ words! {
 }
 
 options! {
+    /// The search, as its options describe it.
     pub(crate) struct RayHierarchy {
-        /// what is done about holes between the cones: nothing, a second test with enlarged cones and spheres, or an answer from a level above the base
+        /// what is done about holes between the cones: nothing, a second test with enlarged cones
+        /// and spheres, or an answer from a level above the base
         repair: Repair,
         /// factor on the cones' half angles (repair=enlarge)
         cone: f64 = 1.5 in 1.0..=100.0,

@@ -34,12 +34,14 @@ words! {
 }
 
 options! {
+    /// The search, as its options describe it.
     pub(crate) struct ReflectorCubemap {
         /// most steps of a search
         iterations: u32 = 9 in 1..=256,
         /// texels along an edge of the cube maps
         size: u32 = 256 in 2..=2048,
-        /// the direction from the mirror's centre where a search starts (in a concave mirror the one against it): halfway between eye and vertex, or the eye's
+        /// the direction from the mirror's centre where a search starts (in a concave mirror the
+        /// one against it): halfway between eye and vertex, or the eye's
         start: Start,
         /// length of the first step, in units of the projected bisector
         step: f64 = 0.5 in 0.05..=4.0,

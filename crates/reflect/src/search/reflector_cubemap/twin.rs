@@ -4,12 +4,11 @@
 use catoptric_scene::Scene;
 use glam::{Vec2, Vec3};
 
+use super::maps::{Maps, objection};
+use super::{ReflectorCubemap, Settings};
 use crate::options::Options as _;
 use crate::spec::Options;
 use crate::stage::options::{Hidden, SearchOptions};
-
-use super::maps::{Maps, objection};
-use super::{ReflectorCubemap, Settings};
 
 /// The search in the reflector cube maps of one mirror, on the CPU.
 ///

@@ -1,8 +1,9 @@
 //! Where results go, tried before any work is done.
 
+use std::io::ErrorKind;
 use std::path::Path;
 
-use anyhow::Context;
+use anyhow::{Context, anyhow};
 
 use crate::exit::bad_input;
 
@@ -31,7 +32,11 @@ pub fn check_writable(path: &Path) -> anyhow::Result<()> {
 pub fn unwritable(path: &Path, error: &std::io::Error) -> anyhow::Error {
     let text = error.to_string();
     let reason = text.split(" at path ").next().unwrap_or_default();
-    bad_input(format!("cannot write {}: {reason}", path.display()))
+    let message = format!("cannot write {}: {reason}", path.display());
+    match error.kind() {
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => anyhow!(message),
+        _ => bad_input(message),
+    }
 }
 
 /// Makes the report's folder; where an earlier report is in it, without that one's pictures.

@@ -570,3 +570,17 @@ fn pictures_of_two_sizes_are_not_compared() {
     }
     assert!(refused(&["diff", &at("a.exr"), &at("b.exr")]).contains("8x6"));
 }
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_not_the_inputs_fault() {
+    let full = std::fs::File::options().write(true).open("/dev/full");
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_catoptric"))
+        .args(["list", "scenes"])
+        .stdout(full.expect("a device that is always full"))
+        .stderr(std::process::Stdio::piped())
+        .output()
+        .expect("the program starts");
+    assert_eq!(code(&output), 1, "{}", stderr(&output));
+    assert!(stderr(&output).contains("cannot write to stdout"));
+}

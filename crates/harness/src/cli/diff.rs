@@ -38,7 +38,8 @@ pub fn run(Args { reference, test }: &Args, common: &Common) -> anyhow::Result<O
     }
     let layered = |frame: &Frame| frame.primary.is_some() && frame.reflected.is_some();
     let metrics = if layered(&a) && layered(&b) {
-        serde_json::to_value(catoptric_metrics::compare(&a, &b)?)?
+        let compared = catoptric_metrics::compare(&a, &b);
+        serde_json::to_value(compared.map_err(|error| bad_input(error.to_string()))?)?
     } else {
         let everywhere = Image::filled(a.color.size(), true);
         let color = catoptric_metrics::compare_color(
@@ -46,7 +47,8 @@ pub fn run(Args { reference, test }: &Args, common: &Common) -> anyhow::Result<O
             &b.color,
             &everywhere,
             DEFAULT_PIXELS_PER_DEGREE,
-        )?;
+        )
+        .map_err(|error| bad_input(error.to_string()))?;
         let non_finite = |frame: &Frame| {
             let pixels = frame.color.pixels().iter();
             pixels.filter(|color| !color.is_finite()).count()

@@ -529,3 +529,31 @@ fn an_interrupted_report_is_a_page_of_what_was_finished() {
         "{last}"
     );
 }
+
+#[test]
+fn progress_fills_where_a_scene_is_not_there() {
+    use ::catoptric::{options::Common, run};
+    if !gpu_or_skip() {
+        return;
+    }
+    let names = |name: &str| [name.to_owned()];
+    let wanted = run::product(
+        &names("teapot-ball"),
+        &names("linear"),
+        Duration::from_millis(1),
+        None,
+    );
+    let common = Common {
+        quiet: true,
+        ..Common::default()
+    };
+    let setup = run::Setup::new(&wanted, &common).expect("an adapter");
+    let begun = setup.progress.left();
+    let mut left = begun;
+    let rows = run::measure(&setup, |_, _| {
+        left = setup.progress.left();
+        Ok(())
+    });
+    assert_eq!(rows.expect("rows").len(), 1);
+    assert_eq!((begun > 0, left), (true, 0));
+}

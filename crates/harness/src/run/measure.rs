@@ -10,7 +10,7 @@ use super::interrupt::interrupted;
 use super::motion::follow;
 use super::render::{Blank, Rendered, render};
 use super::sampling::time;
-use super::setup::Setup;
+use super::setup::{STEPS_A_ROW, Setup};
 use super::truth::{Truth, trace_reference};
 
 /// What one scene gave: its rows in the order of the techniques, and what they were made from.
@@ -51,6 +51,7 @@ pub fn measure(
             Ok(scene) => scene,
             Err(reason) => {
                 rows.extend(setup.unavailable(job, reason));
+                setup.progress.steps(STEPS_A_ROW * job.techniques.len());
                 finished(None, &rows)?;
                 continue;
             }

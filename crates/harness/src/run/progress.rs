@@ -40,7 +40,20 @@ impl Progress {
 
     /// One step is finished.
     pub fn step(&self) {
-        self.bar.inc(1);
+        self.steps(1);
+    }
+
+    /// So many steps are finished, or need not be gone.
+    pub fn steps(&self, steps: usize) {
+        self.bar.inc(steps as u64);
+    }
+
+    /// Steps that are not finished.
+    pub fn left(&self) -> u64 {
+        self.bar
+            .length()
+            .unwrap_or_default()
+            .saturating_sub(self.bar.position())
     }
 
     /// A remark that outlives the bar.

@@ -95,7 +95,7 @@ impl Setup {
             check_size(size(scene), limit, "this adapter")?;
         }
         let rows: usize = jobs.iter().map(|job| job.techniques.len()).sum();
-        let progress = Progress::new(2 * rows, common.quiet);
+        let progress = Progress::new(STEPS_A_ROW * rows, common.quiet);
         Ok(Self {
             jobs,
             gpu,
@@ -203,6 +203,9 @@ impl Meta {
         }
     }
 }
+
+/// Steps of progress a row: rendered, recorded.
+pub const STEPS_A_ROW: usize = 2;
 
 /// Width and height where neither scene nor command line says.
 const DEFAULT_RESOLUTION: [u32; 2] = [640, 480];

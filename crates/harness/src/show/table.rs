@@ -1,6 +1,6 @@
 //! Rows of text as aligned columns, CSV or Markdown.
 
-use serde_json::Value;
+use serde_json::{Map, Value};
 
 use crate::options::Format;
 
@@ -29,10 +29,11 @@ impl Table {
         self.rows.push(cells.into_iter().map(Into::into).collect());
     }
 
-    /// The table as text; [`Format::Json`] has its own path and is written as aligned columns.
+    /// The table as text; as JSON an array with an object a row, its cells by their headings.
     pub fn write(&self, format: Format) -> String {
         match format {
-            Format::Table | Format::Json => self.aligned(),
+            Format::Table => self.aligned(),
+            Format::Json => format!("{:#}\n", self.json()),
             Format::Csv => self.csv(),
             Format::Markdown => self.markdown(),
         }
@@ -72,6 +73,19 @@ impl Table {
             text.push('\n');
         }
         text
+    }
+
+    fn json(&self) -> Value {
+        let cell = |cell: &String| match cell.as_str() {
+            "–" => Value::Null,
+            text => text.into(),
+        };
+        let row = |row: &Vec<String>| -> Value {
+            let cells = row.iter().map(cell);
+            let named = self.heading.iter().cloned().zip(cells);
+            named.collect::<Map<_, _>>().into()
+        };
+        self.rows.iter().map(row).collect()
     }
 
     fn csv(&self) -> String {
@@ -174,6 +188,14 @@ mod tests {
             table().write(Format::Table),
             lines.map(|line| line.to_owned() + "\n").concat()
         );
+    }
+
+    #[test]
+    fn json_is_json() {
+        let rows: Value = serde_json::from_str(&table().write(Format::Json)).unwrap();
+        assert_eq!(rows[0]["name"], "linear(a=1,b=2)");
+        assert_eq!(rows[0]["px"], "0.38");
+        assert!(rows[1]["px"].is_null() && rows.as_array().unwrap().len() == 2);
     }
 
     #[test]

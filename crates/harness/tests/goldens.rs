@@ -11,8 +11,8 @@ use catoptric_metrics::{Colormap, MapKind, compare, error_map};
 use glam::Vec3;
 use support::{catoptric, code, gpu_or_skip, stderr};
 
-/// Scene and technique of each golden; together they show every search, both ways of splitting
-/// triangles, every technique of image order, mirrors of several shapes, several mirrors, and both
+/// Scene and technique of each golden; together they show every search, every refinement, every
+/// technique of image order, mirrors of several shapes, several mirrors, and both
 /// depth modes.
 const GOLDENS: &[(&str, &str)] = &[
     ("spheres", "linear"),
@@ -22,6 +22,7 @@ const GOLDENS: &[(&str, &str)] = &[
     ("sphere-table", "linear+adaptive(level=3)"),
     ("ellipsoid", "ray-hierarchy(repair=enlarge)"),
     ("spheres", "reflector-cubemap(size=64)"),
+    ("sphere-objects-1k", "linear+grid"),
     ("sphere-objects-1k", "newton"),
     ("planar", "planar"),
     ("ellipsoid", "ray-trace"),
@@ -121,6 +122,25 @@ fn pictures_are_as_stored() {
         }
     }
     assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+#[test]
+fn every_technique_has_a_golden() {
+    let specs: Vec<_> = (GOLDENS.iter())
+        .map(|(_, technique)| catoptric_reflect::parse(technique).expect("a technique"))
+        .collect();
+    let shown = |name: &str| {
+        specs.iter().any(|spec| {
+            let refinement = spec.refinement().map(|options| options.name());
+            spec.name() == name || refinement == Some(name)
+        })
+    };
+    let all = catoptric_reflect::list();
+    let built = all.iter().filter(|info| info.reason().is_none());
+    let without: Vec<_> = (built.map(|info| info.name))
+        .filter(|name| !shown(name))
+        .collect();
+    assert!(without.is_empty(), "without a golden: {without:?}");
 }
 
 #[test]

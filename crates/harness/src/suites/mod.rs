@@ -1,4 +1,5 @@
-//! `catoptric bench SUITE`: the sweeps behind the papers' figures, as data, plots and pictures.
+//! What is measured together: the sweeps behind the papers' figures (`catoptric bench SUITE`), and
+//! the report.
 //!
 //! A suite is data. It lists [`Figure`]s; a figure lists [`Series`], and each [`Point`] of a series
 //! names a scene and a technique and says where on the figure's axis the pair stands. From all
@@ -9,7 +10,7 @@
 //!
 //! # Adding a suite
 //!
-//! 1. A file `suites/NAME.rs` with a `pub const SUITE: Suite`, and a line in [`SUITES`].
+//! 1. A file `suites/NAME.rs`, or a folder, with a `pub const SUITE: Suite`, and a line in [`SUITES`].
 //! 2. Its `figures` function builds the figures, in the order of the page. It is given the user's
 //!    `--scene`, if any: put it in place of your scenes where the figure's axis is not the scene,
 //!    and leave out figures that make no sense then.
@@ -20,9 +21,12 @@
 //!    page. Pictures of another kind (a search path, a wireframe, a heat map) are made by
 //!    the suite's `pictures` function.
 //!
-//! The tests below check every suite: scenes and techniques exist, quantities are numbers of the
-//! record's schema, anchors are unique. Time: the whole suite shares `timing_s`; measuring apart
-//! from timing (reference, layers, comparison) comes on top and grows with the number of scenes.
+//! The tests below check every suite: scenes and techniques exist, quantities have a row in the
+//! table of metrics, anchors are unique. Time: the whole suite, or each of its scenes, shares its
+//! [`Budget`]; measuring apart from timing (reference, layers, comparison) comes on top and grows
+//! with the number of scenes.
+//!
+//! The report is two suites, [`report::QUICK`] and [`report::FULL`], with a page by scenes.
 
 mod control;
 mod cubemap;

@@ -12,6 +12,7 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use catoptric_reference::{RenderOptions, Tracer, Truth, reflection_points};
+use catoptric_scene::shape::{Bowl, Ellipsoid, Sphere};
 use catoptric_scene::{Scene, Shape};
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use glam::{DMat3, DVec3};
@@ -99,27 +100,27 @@ fn vertices(criterion: &mut Criterion) {
     let shapes = [
         (
             "sphere",
-            Shape::Sphere {
+            Shape::Sphere(Sphere {
                 center,
                 radius: 1.5,
-            },
+            }),
         ),
         (
             "bowl",
-            Shape::Bowl {
+            Shape::Bowl(Bowl {
                 center,
                 radius: 5.0,
                 axis: DVec3::NEG_Z,
                 half_angle: PI / 3.0,
-            },
+            }),
         ),
         (
             "ellipsoid",
-            Shape::Ellipsoid {
+            Shape::Ellipsoid(Ellipsoid {
                 center,
                 radii: DVec3::new(1.5, 0.7, 1.0),
                 rotation: DMat3::IDENTITY,
-            },
+            }),
         ),
     ];
     let mut group = short(criterion, "reflection points");

@@ -1,6 +1,6 @@
 //! Single rays through a scene: the nearest object or mirror, exactly.
 //!
-//! Objects are two-sided triangles; analytic mirrors are met exactly ([`Shape::intersect`]);
+//! Objects are two-sided triangles; analytic mirrors are met exactly ([`MirrorShape::intersect`](catoptric_scene::MirrorShape::intersect));
 //! mesh mirrors are triangles with interpolated normals. Where a mirror coincides with an
 //! object, the mirror is met.
 //!
@@ -10,7 +10,7 @@
 //! plane are not met again by a ray that leaves them, so they are left out. A bowl is met again
 //! only beyond `BOWL_NUDGE` × its extent.
 
-use catoptric_scene::{Mesh, Scene, Shape};
+use catoptric_scene::{Mesh, Scene};
 use glam::{DVec3, Vec3};
 
 use crate::bvh::{TriangleBvh, TriangleHit};
@@ -116,7 +116,7 @@ impl Tracer {
             check_paint(&object.name, &object.mesh)?;
         }
         for mirror in &scene.mirrors {
-            if let Shape::Mesh(mesh) = &mirror.shape {
+            if let Some(mesh) = mirror.shape.as_mesh() {
                 check(&mirror.name, mesh)?;
                 check_count(
                     &mirror.name,
@@ -127,10 +127,8 @@ impl Tracer {
             }
         }
         let objects = Triangles::new(scene.objects.iter().map(|object| Some(&object.mesh)));
-        let mesh_mirrors = Triangles::new(scene.mirrors.iter().map(|mirror| match &mirror.shape {
-            Shape::Mesh(mesh) => Some(mesh),
-            _ => None,
-        }));
+        let mesh_mirrors =
+            Triangles::new(scene.mirrors.iter().map(|mirror| mirror.shape.as_mesh()));
         let object_extents = scene
             .objects
             .iter()
@@ -265,11 +263,13 @@ impl Tracer {
             .intersect(start.origin, dir, start.t_min, t_max);
         let mut analytic: Option<Hit> = None;
         for (index, mirror) in self.scene.mirrors.iter().enumerate() {
-            let t_min = match (&mirror.shape, start.leaving == Some(index)) {
-                (Shape::Mesh(_), _) => continue,
-                (shape, true) if shape.is_convex() => continue,
-                (shape, true) => start.t_min.max(BOWL_NUDGE * reach(shape.bounds())),
-                (_, false) => start.t_min,
+            let leaving = start.leaving == Some(index);
+            if !mirror.shape.is_analytic() || leaving && mirror.shape.is_convex() {
+                continue;
+            }
+            let t_min = match leaving {
+                true => start.t_min.max(BOWL_NUDGE * reach(mirror.shape.bounds())),
+                false => start.t_min,
             };
             let limit = analytic
                 .map(|hit| hit.t)
@@ -319,9 +319,8 @@ impl Tracer {
 
     fn mesh_mirror_hit(&self, hit: &TriangleHit, dir: DVec3) -> Hit {
         let (index, triangle) = self.mesh_mirrors.owner(hit);
-        let Shape::Mesh(mesh) = &self.scene.mirrors[index].shape else {
-            unreachable!("only meshes are in this hierarchy");
-        };
+        let mesh = self.scene.mirrors[index].shape.as_mesh();
+        let mesh = mesh.expect("only meshes are in this hierarchy");
         let facing = geometric_normal(&hit.corners);
         let shading = mix(&mesh.normals[triangle].map(Vec3::as_dvec3), hit.barycentric);
         let normal = shading.try_normalize().unwrap_or(facing);

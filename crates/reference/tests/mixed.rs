@@ -7,26 +7,27 @@ use std::f64::consts::{PI, TAU};
 use catoptric_frame::VertexClass;
 use catoptric_reference::{Solutions, reflection_points};
 use catoptric_scene::Shape;
+use catoptric_scene::shape::{Plane, Saddle, Sphere, Torus};
 use common::*;
 use glam::{DVec2, DVec3};
 
 fn torus() -> Shape {
-    Shape::Torus {
+    Shape::Torus(Torus {
         center: DVec3::new(0.1, 0.0, -0.2),
         axis: DVec3::new(0.2, 1.0, 0.6).normalize(),
         major: 1.0,
         minor: 0.45,
-    }
+    })
 }
 
 fn saddle() -> Shape {
-    Shape::Saddle {
+    Shape::Saddle(Saddle {
         center: DVec3::new(0.0, 0.1, 0.0),
         normal: DVec3::Z,
         up: DVec3::Y,
         size: DVec2::new(2.4, 1.8),
         curvature: DVec2::new(0.9, -0.7),
-    }
+    })
 }
 
 fn eye() -> DVec3 {
@@ -143,12 +144,12 @@ fn no_solution_is_missed() {
             random.between(0.6, 3.0),
         );
         let (ring, patch) = (torus(), saddle());
-        let Shape::Torus {
+        let Shape::Torus(Torus {
             center,
             axis,
             major,
             minor,
-        } = ring
+        }) = ring
         else {
             unreachable!()
         };
@@ -186,19 +187,19 @@ fn no_solution_is_missed() {
 
 #[test]
 fn an_almost_flat_saddle_is_a_plane() {
-    let flat = Shape::Saddle {
+    let flat = Shape::Saddle(Saddle {
         center: DVec3::ZERO,
         normal: DVec3::Z,
         up: DVec3::Y,
         size: DVec2::new(3.0, 2.0),
         curvature: DVec2::new(1e-9, -1e-9),
-    };
-    let plane = Shape::Plane {
+    });
+    let plane = Shape::Plane(Plane {
         center: DVec3::ZERO,
         normal: DVec3::Z,
         up: DVec3::Y,
         size: DVec2::new(3.0, 2.0),
-    };
+    });
     let mut random = Random(3);
     for _ in 0..300 {
         let vertex = DVec3::new(
@@ -218,16 +219,16 @@ fn an_almost_flat_saddle_is_a_plane() {
 /// In a plane through its axis a torus is two circles, whose reflection points are its own.
 #[test]
 fn in_a_plane_through_the_axis_a_torus_reflects_as_its_circle() {
-    let torus = Shape::Torus {
+    let torus = Shape::Torus(Torus {
         center: DVec3::ZERO,
         axis: DVec3::Y,
         major: 1.0,
         minor: 0.4,
-    };
-    let circle = Shape::Sphere {
+    });
+    let circle = Shape::Sphere(Sphere {
         center: DVec3::X,
         radius: 0.4,
-    };
+    });
     let mut random = Random(9);
     let mut solved = 0;
     for _ in 0..200 {
@@ -251,13 +252,13 @@ fn in_a_plane_through_the_axis_a_torus_reflects_as_its_circle() {
 #[test]
 fn what_lies_behind_is_hidden_and_beyond_the_rim_unreflected() {
     let class = |shape: &Shape, vertex| solve(shape, vertex).class;
-    let shallow = Shape::Saddle {
+    let shallow = Shape::Saddle(Saddle {
         center: DVec3::ZERO,
         normal: DVec3::Z,
         up: DVec3::Y,
         size: DVec2::new(2.0, 2.0),
         curvature: DVec2::new(0.1, -0.1),
-    };
+    });
     let (behind, beside) = (DVec3::new(0.0, 0.0, -3.0), DVec3::new(9.0, 0.0, 1.0));
     assert_eq!(class(&shallow, behind), VertexClass::Hidden);
     assert_eq!(class(&shallow, beside), VertexClass::Unreflected);

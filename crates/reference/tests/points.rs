@@ -9,6 +9,7 @@ use catoptric_reference::{
     RenderOptions, Solutions, Tracer, Truth, in_view, points_in_view, reflection_points,
     true_vertices,
 };
+use catoptric_scene::shape::{Bowl, Ellipsoid, Plane, Sphere};
 use catoptric_scene::{Camera, Mesh, Shape};
 use common::*;
 use glam::{DMat3, DVec2, DVec3, Vec3};
@@ -103,15 +104,15 @@ fn mirrors_anywhere_of_any_size_are_solved() {
             random.log_between(0.05, 1.0),
         );
         for shape in [
-            Shape::Sphere {
+            Shape::Sphere(Sphere {
                 center,
                 radius: size,
-            },
-            Shape::Ellipsoid {
+            }),
+            Shape::Ellipsoid(Ellipsoid {
                 center,
                 radii: size * radii,
                 rotation: random.rotation(),
-            },
+            }),
         ] {
             let eye = center + size * random.between(1.5, 8.0) * random.direction();
             let target = center + size * 0.04 * random.direction();
@@ -133,11 +134,11 @@ fn mirrors_anywhere_of_any_size_are_solved() {
 #[test]
 fn sphere_hides_what_lies_behind_its_silhouette() {
     let mut random = Random(11);
-    let ball = Shape::Ellipsoid {
+    let ball = Shape::Ellipsoid(Ellipsoid {
         center: DVec3::ZERO,
         radii: DVec3::ONE,
         rotation: DMat3::IDENTITY,
-    };
+    });
     for _ in 0..50_000 {
         let eye = random.log_between(1.001, 50.0) * random.direction();
         let vertex = random.log_between(1.001, 50.0) * random.direction();
@@ -181,11 +182,11 @@ fn no_vertex_beside_an_ellipsoid_is_undecided() {
             let unit = random.direction();
             let (point, normal) = (unit * radii, (unit / radii).normalize());
             let along = normal.cross(random.direction()).normalize();
-            let shape = Shape::Ellipsoid {
+            let shape = Shape::Ellipsoid(Ellipsoid {
                 center: DVec3::ZERO,
                 radii,
                 rotation: DMat3::IDENTITY,
-            };
+            });
             let lifted = point + off * normal;
             let grazing = [
                 lifted + along * random.log_between(0.1, 10.0),
@@ -267,12 +268,12 @@ fn bowl_has_all_solutions_and_the_known_shares() {
 #[test]
 fn no_solution_on_a_sphere_is_missed() {
     let mut random = Random(13);
-    let inside = Shape::Bowl {
+    let inside = Shape::Bowl(Bowl {
         center: DVec3::ZERO,
         radius: 1.0,
         axis: DVec3::X,
         half_angle: PI - 1e-9,
-    };
+    });
     for _ in 0..300 {
         let flat = |random: &mut Random| {
             random.log_between(0.02, 20.0)
@@ -339,12 +340,12 @@ fn bowl_in_its_special_positions() {
 #[test]
 fn beyond_the_rim_is_unreflected() {
     let eye = DVec3::new(0.5, 0.35, 4.0);
-    let narrow = Shape::Bowl {
+    let narrow = Shape::Bowl(Bowl {
         center: DVec3::ZERO,
         radius: 1.5,
         axis: DVec3::NEG_Z,
         half_angle: 0.01,
-    };
+    });
     let found = solve(&narrow, eye, DVec3::new(0.9, 0.0, -0.5));
     assert_eq!(found.class, VertexClass::Unreflected);
     assert!(found.points.is_empty());
@@ -353,12 +354,12 @@ fn beyond_the_rim_is_unreflected() {
 #[test]
 fn what_a_bowl_hides_from_the_eye_is_hidden() {
     let eye = DVec3::new(0.5, 0.35, 4.0);
-    let bowl = Shape::Bowl {
+    let bowl = Shape::Bowl(Bowl {
         center: DVec3::ZERO,
         radius: 1.5,
         axis: DVec3::NEG_Z,
         half_angle: 1.0,
-    };
+    });
     let class = |vertex| solve(&bowl, eye, vertex).class;
     assert_eq!(class(DVec3::new(0.0, 0.0, -4.0)), VertexClass::Hidden);
     assert_eq!(class(DVec3::new(9.0, 0.0, -4.0)), VertexClass::Unreflected);
@@ -367,12 +368,12 @@ fn what_a_bowl_hides_from_the_eye_is_hidden() {
 
 #[test]
 fn plane_has_the_mirror_image() {
-    let plane = Shape::Plane {
+    let plane = Shape::Plane(Plane {
         center: DVec3::new(0.0, 1.0, 0.0),
         normal: DVec3::Y,
         up: DVec3::Z,
         size: DVec2::new(2.0, 4.0),
-    };
+    });
     let eye = DVec3::new(0.0, 2.0, 0.0);
     let found = solve(&plane, eye, DVec3::new(1.0, 4.0, 3.0));
     assert_eq!(found.class, VertexClass::Reflected);
@@ -426,12 +427,12 @@ fn vertices_come_in_order_and_know_what_is_in_view() {
         points("a", vec![seen, behind]),
         points("b", vec![Vec3::new(0.0, 0.5, 2.0)]),
     ];
-    let plane = Shape::Plane {
+    let plane = Shape::Plane(Plane {
         center: DVec3::new(0.0, 0.0, -9.0),
         normal: DVec3::Z,
         up: DVec3::Y,
         size: DVec2::splat(100.0),
-    };
+    });
     let scene = scene(camera, objects, vec![unit_sphere(), plane]);
     let view = scene.camera.view([64, 64]);
     let truth = true_vertices(&scene, &view).unwrap();

@@ -4,6 +4,7 @@ mod common;
 
 use catoptric_frame::Status;
 use catoptric_reference::{RayStart, ReferenceError, RenderOptions, Surface, Tracer, Truth};
+use catoptric_scene::shape::{Plane, Sphere};
 use catoptric_scene::{Background, Mesh, Paint, Scene, Shape};
 use common::*;
 use glam::{DVec2, DVec3, Vec3};
@@ -12,12 +13,12 @@ const FIRST: Truth = Truth::FirstBounce;
 
 fn plane(center: [f64; 3], normal: [f64; 3]) -> Shape {
     let normal = DVec3::from_array(normal);
-    Shape::Plane {
+    Shape::Plane(Plane {
         center: DVec3::from_array(center),
         normal,
         up: normal.any_orthonormal_vector(),
         size: DVec2::splat(10.0),
-    }
+    })
 }
 
 /// Every pixel's eye ray and its first reflected ray, both as traced.
@@ -42,10 +43,10 @@ fn sphere_and_plane_reflect_as_in_closed_form() {
     let center = DVec3::new(0.2, -0.1, 0.3);
     let eye = DVec3::new(0.6, 0.5, 4.0);
     let camera = camera(eye.to_array(), 34.0, [96, 96]);
-    let sphere = Shape::Sphere {
+    let sphere = Shape::Sphere(Sphere {
         center,
         radius: 0.9,
-    };
+    });
     let found = reflections(&scene(camera.clone(), vec![], vec![sphere]), [96, 96]);
     assert!(found.len() > 3000);
     for (dir, position, reflected) in found {

@@ -7,7 +7,7 @@ use sha2::{Digest, Sha256};
 
 use crate::camera::{Camera, Fov};
 use crate::mesh::{Mesh, Paint};
-use crate::mirror::{Mirror, Shape};
+use crate::mirror::Mirror;
 use crate::{Background, Object};
 
 /// SHA-256 in hex over camera (without the resolution), background, geometry, paints, mirrors.
@@ -164,82 +164,14 @@ impl Hasher {
 
     fn mirror(&mut self, mirror: &Mirror) {
         self.counts([&mirror.tessellation]);
-        match &mirror.shape {
-            Shape::Sphere { center, radius } => {
-                self.tag("sphere");
-                self.vector(*center);
-                self.number(*radius);
-            }
-            Shape::Ellipsoid {
-                center,
-                radii,
-                rotation,
-            } => {
-                self.tag("ellipsoid");
-                self.vector(*center);
-                self.vector(*radii);
-                rotation
-                    .to_cols_array()
-                    .into_iter()
-                    .for_each(|number| self.number(number));
-            }
-            Shape::Plane {
-                center,
-                normal,
-                up,
-                size,
-            } => {
-                self.tag("plane");
-                [center, normal, up]
-                    .into_iter()
-                    .for_each(|vector| self.vector(*vector));
-                size.to_array()
-                    .into_iter()
-                    .for_each(|number| self.number(number));
-            }
-            Shape::Bowl {
-                center,
-                radius,
-                axis,
-                half_angle,
-            } => {
-                self.tag("bowl");
-                self.vector(*center);
-                self.number(*radius);
-                self.vector(*axis);
-                self.number(*half_angle);
-            }
-            Shape::Torus {
-                center,
-                axis,
-                major,
-                minor,
-            } => {
-                self.tag("torus");
-                self.vector(*center);
-                self.vector(*axis);
-                self.number(*major);
-                self.number(*minor);
-            }
-            Shape::Saddle {
-                center,
-                normal,
-                up,
-                size,
-                curvature,
-            } => {
-                self.tag("saddle");
-                [center, normal, up]
-                    .into_iter()
-                    .for_each(|vector| self.vector(*vector));
-                [size.x, size.y, curvature.x, curvature.y]
-                    .into_iter()
-                    .for_each(|number| self.number(number));
-            }
-            Shape::Mesh(mesh) => {
-                self.tag("mesh");
-                self.mesh(mesh);
-            }
+        self.tag(mirror.shape.name());
+        mirror
+            .shape
+            .numbers()
+            .into_iter()
+            .for_each(|number| self.number(number));
+        if let Some(mesh) = mirror.shape.as_mesh() {
+            self.mesh(mesh);
         }
     }
 }

@@ -37,21 +37,21 @@ pub mod mirror;
 pub mod motion;
 mod mtl;
 mod obj;
+mod pose;
+mod primitives;
 mod random;
-mod saddle;
-mod shapes;
-mod surface;
-mod tessellate;
+pub mod shape;
 mod text;
-mod torus;
 
 pub use camera::{Camera, Fov, View};
 pub use error::SceneError;
 pub use load::{LoadOptions, open};
 pub use mesh::{Material, Mesh, Paint, Texture};
-pub use mirror::{Mirror, Shape, SurfaceHit};
+pub use mirror::Mirror;
 pub use motion::{CameraPath, Motion, Move, Subject};
+pub use pose::Pose;
 pub use random::Random;
+pub use shape::{MirrorShape, Shape, SurfaceHit};
 
 use glam::Vec3;
 

@@ -4,11 +4,11 @@
 //! Everything that moves does so rigidly, and a moved mesh keeps its vertices in their order, so
 //! that a vertex is the same one in all frames.
 
-use glam::{DMat3, DVec3, Vec3};
+use glam::{DMat3, DVec3};
 
-use crate::geometry::Transform;
 use crate::hash::hash;
-use crate::{Camera, Mesh, Mirror, Object, Scene, Shape};
+use crate::pose::Pose;
+use crate::{Camera, Scene};
 
 /// How a scene changes over its frames.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,8 +87,8 @@ impl Scene {
         for step in &motion.moves {
             let pose = step.pose(time);
             match step.subject {
-                Subject::Object(index) => pose.object(&mut posed.objects[index]),
-                Subject::Mirror(index) => pose.mirror(&mut posed.mirrors[index]),
+                Subject::Object(index) => pose.carry(&mut posed.objects[index].mesh),
+                Subject::Mirror(index) => posed.mirrors[index].shape.carry(&pose),
             }
         }
         posed.hash = hash(
@@ -136,11 +136,7 @@ impl Motion {
 
 impl Move {
     fn pose(&self, time: f64) -> Pose {
-        Pose(Transform::rigid(
-            self.rotate_deg * time,
-            self.about,
-            self.translate * time,
-        ))
+        Pose::new(self.rotate_deg * time, self.about, self.translate * time)
     }
 }
 
@@ -168,68 +164,6 @@ fn spline(points: &[DVec3], time: f64) -> DVec3 {
         + share
             * (1.0 - share)
             * ((1.0 - share) * (leaving - (to - from)) - share * (arriving - (to - from)))
-}
-
-/// A rigid transform that has happened since the first frame.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Pose(Transform);
-
-impl Pose {
-    const REST: Self = Self(Transform::IDENTITY);
-
-    fn point(&self, point: DVec3) -> DVec3 {
-        self.0.apply(point)
-    }
-
-    fn turn(&self, direction: DVec3) -> DVec3 {
-        self.0.linear * direction
-    }
-
-    /// Where a point was that the motion has brought here.
-    pub(crate) fn undone(&self, point: DVec3) -> DVec3 {
-        self.0.linear.transpose() * (point - self.0.translate)
-    }
-
-    fn object(&self, object: &mut Object) {
-        self.mesh(&mut object.mesh);
-    }
-
-    fn mesh(&self, mesh: &mut Mesh) {
-        for position in &mut mesh.positions {
-            // Adding zero turns −0 into +0, as it is done for meshes at rest.
-            *position = self.point(position.as_dvec3()).as_vec3() + Vec3::ZERO;
-        }
-        for normal in mesh.normals.as_flattened_mut() {
-            *normal = self.turn(normal.as_dvec3()).normalize_or_zero().as_vec3();
-        }
-    }
-
-    fn mirror(&self, mirror: &mut Mirror) {
-        match &mut mirror.shape {
-            Shape::Sphere { center, .. } => *center = self.point(*center),
-            Shape::Ellipsoid {
-                center, rotation, ..
-            } => {
-                *center = self.point(*center);
-                *rotation = self.0.linear * *rotation;
-            }
-            Shape::Plane {
-                center, normal, up, ..
-            }
-            | Shape::Saddle {
-                center, normal, up, ..
-            } => {
-                *center = self.point(*center);
-                *normal = self.turn(*normal);
-                *up = self.turn(*up);
-            }
-            Shape::Bowl { center, axis, .. } | Shape::Torus { center, axis, .. } => {
-                *center = self.point(*center);
-                *axis = self.turn(*axis);
-            }
-            Shape::Mesh(mesh) => self.mesh(mesh),
-        }
-    }
 }
 
 #[cfg(test)]

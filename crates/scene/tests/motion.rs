@@ -193,3 +193,21 @@ fn by_default_an_object_turns_around_the_middle_of_its_box() {
     };
     assert!(middle(&scene).distance(middle(&scene.at(1))) < 1e-6);
 }
+
+#[test]
+fn every_shape_keeps_its_fingerprint() {
+    // Recorded results and stored reference images name their scenes by these.
+    let scene = moving();
+    for (frame, expected) in [
+        (
+            0,
+            "3de810b2d8c8078ae2e3276c379b18ff172c72909dd803d09f7a969733b47888",
+        ),
+        (
+            4,
+            "4b24df0fde6319f45db1c7cca3c4d6df019bf8bfabd63441aa20dd6bc58b5ae4",
+        ),
+    ] {
+        assert_eq!(scene.at(frame).hash, expected, "frame {frame}");
+    }
+}

@@ -1,5 +1,6 @@
 //! Whatever is written into a scene file, the parser answers; and numbers arrive as written.
 
+use catoptric_scene::shape::Sphere;
 use catoptric_scene::{Fov, LoadOptions, Shape, builtin, open};
 use proptest::prelude::*;
 
@@ -74,7 +75,7 @@ proptest! {
         prop_assert_eq!(scene.camera.eye.to_array(), eye);
         prop_assert_eq!(scene.camera.fov, Fov::X(fov));
         prop_assert_eq!(scene.camera.resolution, size);
-        let Shape::Sphere { radius: found, .. } = scene.mirrors[0].shape else { panic!("no sphere") };
+        let Shape::Sphere(Sphere { radius: found, .. }) = scene.mirrors[0].shape else { panic!("no sphere") };
         prop_assert_eq!(found, radius);
         prop_assert_eq!(scene.mirrors[0].tessellation, 128);
         prop_assert_eq!(&scene.mirrors[0].name, "mirror 1");

@@ -1,5 +1,6 @@
 //! Exact surfaces against points sampled on them, and their proxies.
 
+use catoptric_scene::shape::{Bowl, Ellipsoid, Plane, Saddle, Sphere, Torus};
 use catoptric_scene::{Mesh, Shape};
 use glam::{DMat3, DVec2, DVec3, Vec3};
 use proptest::prelude::*;
@@ -8,52 +9,52 @@ fn shapes() -> Vec<Shape> {
     let rotation = DMat3::from_rotation_z(0.4) * DMat3::from_rotation_x(-0.7);
     let center = DVec3::new(0.3, -0.2, 0.1);
     vec![
-        Shape::Sphere {
+        Shape::Sphere(Sphere {
             center,
             radius: 1.3,
-        },
-        Shape::Ellipsoid {
+        }),
+        Shape::Ellipsoid(Ellipsoid {
             center,
             radii: DVec3::new(1.5, 0.3, 0.8),
             rotation,
-        },
-        Shape::Plane {
+        }),
+        Shape::Plane(Plane {
             center,
             normal: rotation * DVec3::Z,
             up: rotation * DVec3::Y,
             size: DVec2::new(2.0, 1.0),
-        },
-        Shape::Bowl {
+        }),
+        Shape::Bowl(Bowl {
             center,
             radius: 1.5,
             axis: rotation * DVec3::NEG_Z,
             half_angle: 1.1,
-        },
-        Shape::Bowl {
+        }),
+        Shape::Bowl(Bowl {
             center,
             radius: 0.7,
             axis: DVec3::X,
             half_angle: 2.5,
-        },
-        Shape::Torus {
+        }),
+        Shape::Torus(Torus {
             center,
             axis: rotation * DVec3::Y,
             major: 1.2,
             minor: 0.4,
-        },
-        Shape::Torus {
+        }),
+        Shape::Torus(Torus {
             center,
             axis: DVec3::Z,
             major: 1.3,
             minor: 0.02,
-        },
-        Shape::Saddle {
+        }),
+        Shape::Saddle(Saddle {
             center,
             normal: rotation * DVec3::Z,
             up: rotation * DVec3::Y,
             size: DVec2::new(2.0, 1.4),
             curvature: DVec2::new(0.9, -0.5),
-        },
+        }),
     ]
 }
 
@@ -65,46 +66,46 @@ fn sample(shape: &Shape, u: f64, v: f64) -> DVec3 {
         DVec3::new(sin * around.cos(), sin * around.sin(), cos)
     };
     match shape {
-        Shape::Sphere { center, radius } => *center + *radius * unit(2.0 * v - 1.0),
-        Shape::Ellipsoid {
+        Shape::Sphere(Sphere { center, radius }) => *center + *radius * unit(2.0 * v - 1.0),
+        Shape::Ellipsoid(Ellipsoid {
             center,
             radii,
             rotation,
-        } => *center + *rotation * (unit(2.0 * v - 1.0) * *radii),
-        Shape::Plane {
+        }) => *center + *rotation * (unit(2.0 * v - 1.0) * *radii),
+        Shape::Plane(Plane {
             center,
             normal,
             up,
             size,
-        } => *center + up.cross(*normal) * size.x * (u - 0.5) + *up * size.y * (v - 0.5),
-        Shape::Bowl {
+        }) => *center + up.cross(*normal) * size.x * (u - 0.5) + *up * size.y * (v - 0.5),
+        Shape::Bowl(Bowl {
             center,
             radius,
             axis,
             half_angle,
-        } => {
+        }) => {
             let local = unit(1.0 - v * (1.0 - half_angle.cos()));
             let (x, y) = axis.any_orthonormal_pair();
             *center + *radius * (x * local.x + y * local.y + *axis * local.z)
         }
-        Shape::Torus {
+        Shape::Torus(Torus {
             center,
             axis,
             major,
             minor,
-        } => {
+        }) => {
             let (x, y) = axis.any_orthonormal_pair();
             let outward = x * around.cos() + y * around.sin();
             let (sin, cos) = (std::f64::consts::TAU * v).sin_cos();
             *center + *major * outward + *minor * (outward * cos + *axis * sin)
         }
-        Shape::Saddle {
+        Shape::Saddle(Saddle {
             center,
             normal,
             up,
             size,
             curvature,
-        } => {
+        }) => {
             let (x, y) = (size.x * (u - 0.5), size.y * (v - 0.5));
             let z = (curvature.x * x * x + curvature.y * y * y) / 2.0;
             *center + up.cross(*normal) * x + *up * y + *normal * z
@@ -209,10 +210,10 @@ fn proxies_lie_on_the_surface_with_its_normals_and_winding() {
 
 #[test]
 fn a_segment_count_gives_half_as_many_rings() {
-    let mesh = Shape::Sphere {
+    let mesh = Shape::Sphere(Sphere {
         center: DVec3::ZERO,
         radius: 1.0,
-    }
+    })
     .tessellate(128);
     assert_eq!(mesh.positions.len(), 2 + 63 * 128);
     assert_eq!(mesh.triangles.len(), 2 * 63 * 128);
@@ -243,10 +244,10 @@ fn covers_of_closed_surfaces_contain_them() {
 
 #[test]
 fn far_and_tiny_spheres_are_hit_exactly() {
-    let sphere = Shape::Sphere {
+    let sphere = Shape::Sphere(Sphere {
         center: DVec3::ZERO,
         radius: 1e-3,
-    };
+    });
     let hit = sphere
         .intersect(DVec3::new(0.0, 0.0, 1e6), DVec3::NEG_Z, 0.0)
         .unwrap();
@@ -259,12 +260,12 @@ fn far_and_tiny_spheres_are_hit_exactly() {
 
 #[test]
 fn a_bowl_is_hit_on_its_cap_only() {
-    let bowl = Shape::Bowl {
+    let bowl = Shape::Bowl(Bowl {
         center: DVec3::ZERO,
         radius: 1.0,
         axis: DVec3::NEG_Z,
         half_angle: 1.0,
-    };
+    });
     let front = bowl
         .intersect(DVec3::new(0.0, 0.0, 3.0), DVec3::NEG_Z, 0.0)
         .unwrap();
@@ -345,12 +346,12 @@ fn nearest(mesh: &Mesh, origin: DVec3, dir: DVec3) -> Option<f64> {
 
 #[test]
 fn a_torus_has_a_hole_and_an_inside() {
-    let torus = Shape::Torus {
+    let torus = Shape::Torus(Torus {
         center: DVec3::X,
         axis: DVec3::Z,
         major: 1.0,
         minor: 0.25,
-    };
+    });
     assert!(
         torus
             .intersect(DVec3::new(1.1, 0.2, 9.0), DVec3::NEG_Z, 0.0)
@@ -366,13 +367,13 @@ fn a_torus_has_a_hole_and_an_inside() {
 
 #[test]
 fn a_saddle_rises_one_way_and_falls_the_other() {
-    let saddle = Shape::Saddle {
+    let saddle = Shape::Saddle(Saddle {
         center: DVec3::ZERO,
         normal: DVec3::Z,
         up: DVec3::Y,
         size: DVec2::new(2.0, 2.0),
         curvature: DVec2::new(1.0, -0.5),
-    };
+    });
     let height = |x: f64, y: f64| {
         let hit = saddle.intersect(DVec3::new(x, y, 5.0), DVec3::NEG_Z, 0.0)?;
         Some(5.0 - hit.t)

@@ -17,7 +17,8 @@ use std::path::Path;
 
 use anyhow::Context;
 use catoptric_frame::{Frame, Image, write_whole};
-use catoptric_scene::{Background, Fov, Mesh, Mirror, Paint, Scene, Shape, Texture};
+use catoptric_scene::shape::Primitive;
+use catoptric_scene::{Background, Fov, Mesh, Mirror, Paint, Scene, Texture};
 use glam::{DMat3, DVec3, Vec2, Vec3};
 use serde_json::json;
 
@@ -28,17 +29,6 @@ use super::sides::{Viewpoints, visible};
 pub const SCENE_FILE: &str = "scene.xml";
 /// Ids, names and settings, for the script that renders.
 pub const IDS_FILE: &str = "scene.json";
-
-/// Segments around a curved mirror that has to be a mesh: its triangles then lie within some
-/// 3e-6 of its size from the surface, about as far as f32 would place it. A torus is seen at
-/// glancing angles all along, where what is seen moves by far more: with three times as many
-/// segments its normals are as exact as those of the shapes that Mitsuba has.
-fn segments(shape: &Shape) -> u32 {
-    match shape {
-        Shape::Torus { .. } => 3072,
-        _ => 1024,
-    }
-}
 
 /// Rows of the picture of a gradient. Odd, so that one is the horizon, where the gradient bends;
 /// between rows the error is at most (π / 1024)² / 8, times the contrast: 1.2e-6.
@@ -288,8 +278,8 @@ impl Writer<'_> {
     }
 
     fn mirror(&mut self, shape: &str, mirror: &Mirror) -> anyhow::Result<()> {
-        let (plugin, keys) = match &mirror.shape {
-            Shape::Sphere { center, radius } => {
+        let (plugin, keys) = match mirror.shape.primitive() {
+            Some(Primitive::Sphere { center, radius }) => {
                 let [x, y, z] = center.to_array();
                 let keys = format!(
                     r#"        <point name="center" x="{x}" y="{y}" z="{z}"/>
@@ -297,13 +287,8 @@ impl Writer<'_> {
                 );
                 ("sphere", keys)
             }
-            Shape::Ellipsoid {
-                center,
-                radii,
-                rotation,
-            } => {
-                let axes = *rotation * DMat3::from_diagonal(*radii);
-                let matrix = matrix([axes.x_axis, axes.y_axis, axes.z_axis], *center);
+            Some(Primitive::Ellipsoid { center, axes }) => {
+                let matrix = matrix(axes, center);
                 let _ = write!(
                     self.xml,
                     r#"
@@ -322,19 +307,9 @@ impl Writer<'_> {
                 );
                 return Ok(());
             }
-            Shape::Plane {
-                center,
-                normal,
-                up,
-                size,
-            } => {
-                let x = up.cross(*normal) * size.x / 2.0;
-                let y = *up * size.y / 2.0;
-                let keys = matrix([x, y, *normal], *center);
-                ("rectangle", keys)
-            }
-            curved => {
-                let mesh = curved.tessellate(segments(curved));
+            Some(Primitive::Rectangle { center, axes }) => ("rectangle", matrix(axes, center)),
+            None => {
+                let mesh = mirror.shape.tessellate(mirror.shape.fine_segments());
                 let mut ply = Ply::new(&["x", "y", "z", "nx", "ny", "nz"]);
                 for (corners, normals) in mesh.triangles.iter().zip(&mesh.normals) {
                     let row = |corner: usize| {
@@ -407,9 +382,9 @@ fn from_bottom(image: &Texture, tint: Vec3) -> Vec<Vec3> {
 }
 
 /// World from a shape's own axes.
-fn matrix(axes: [DVec3; 3], origin: DVec3) -> String {
+fn matrix(axes: DMat3, origin: DVec3) -> String {
     let row = |row: usize| {
-        let [x, y, z] = axes.map(|axis| axis[row]);
+        let [x, y, z] = axes.row(row).to_array();
         format!("{x} {y} {z} {}", origin[row])
     };
     let rows = [0, 1, 2].map(row).join(" ");

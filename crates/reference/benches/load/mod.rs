@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 use std::path::PathBuf;
 
 use catoptric_reference::{Tracer, Truth};
+use catoptric_scene::shape::Sphere;
 use catoptric_scene::{
     Background, Camera, Fov, LoadOptions, Material, Mesh, Mirror, Object, Paint, Scene, Shape,
 };
@@ -19,10 +20,10 @@ pub fn balls() -> Scene {
             positions,
             triangles,
             ..
-        } = Shape::Sphere {
+        } = Shape::Sphere(Sphere {
             center,
             radius: 0.45,
-        }
+        })
         .tessellate(64);
         let name = format!("ball {index}");
         let materials = vec![Material {
@@ -41,10 +42,10 @@ pub fn balls() -> Scene {
             },
         }
     });
-    let shape = Shape::Sphere {
+    let shape = Shape::Sphere(Sphere {
         center: DVec3::ZERO,
         radius: 1.5,
-    };
+    });
     Scene {
         name: "balls".into(),
         why: "A load for benchmarks.".into(),
@@ -82,10 +83,10 @@ pub fn sponza() -> Option<Scene> {
     scene.camera.eye = DVec3::new(-11.0, 2.0, 0.0);
     scene.camera.target = DVec3::new(5.0, 4.0, 0.0);
     scene.camera.fov = Fov::X(70.0);
-    scene.mirrors[0].shape = Shape::Sphere {
+    scene.mirrors[0].shape = Shape::Sphere(Sphere {
         center: DVec3::new(-7.4, 2.1, 0.3),
         radius: 1.5,
-    };
+    });
     Some(scene)
 }
 

@@ -9,9 +9,10 @@
 //! safeguarded Newton iteration on the unit sphere that the body is an affine image of.
 
 use catoptric_frame::VertexClass;
-use glam::{DMat2, DMat3, DVec2, DVec3};
+use catoptric_scene::shape::Ellipsoid;
+use glam::{DMat2, DVec2, DVec3};
 
-use super::Solutions;
+use super::solutions::{ExactPoints, Solutions};
 
 /// A point is accepted if the sum of the unit vectors to eye and vertex has a component across
 /// the normal below this, and the rounding of both vectors.
@@ -24,34 +25,34 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// far below what single precision can tell of where a vertex is.
 const TOUCHING: f64 = 1e-9;
 
-/// Solutions on an ellipsoid that reflects on its outside: one, or none where the straight way
-/// from eye to vertex is blocked, or touches; `Unknown` if the iteration does not come below its
-/// residual, which has not been seen to happen.
-pub fn outside(
-    center: DVec3,
-    radii: DVec3,
-    rotation: DMat3,
-    eye: DVec3,
-    vertex: DVec3,
-) -> Solutions {
-    let size = radii.max_element();
-    let local = |point: DVec3| rotation.transpose() * (point - center) / size;
-    let path = Path {
-        radii: radii / size,
-        eye: local(eye),
-        vertex: local(vertex),
-    };
-    let Some(start) = path.start() else {
-        return Solutions::none(VertexClass::Hidden);
-    };
-    let unit = path.minimize(start);
-    let nearest = path.legs(unit)[0].1.min(path.legs(unit)[1].1);
-    if path.residual(unit) > RESIDUAL + ROUNDING / nearest {
-        return Solutions::none(VertexClass::Unknown);
-    }
-    Solutions {
-        class: VertexClass::Reflected,
-        points: vec![center + rotation * (unit * radii)],
+impl ExactPoints for Ellipsoid {
+    /// One, or none where the straight way from eye to vertex is blocked, or touches; `Unknown` if
+    /// the iteration does not come below its residual, which has not been seen to happen.
+    fn points(&self, eye: DVec3, vertex: DVec3) -> Solutions {
+        let Self {
+            center,
+            radii,
+            rotation,
+        } = *self;
+        let size = radii.max_element();
+        let local = |point: DVec3| rotation.transpose() * (point - center) / size;
+        let path = Path {
+            radii: radii / size,
+            eye: local(eye),
+            vertex: local(vertex),
+        };
+        let Some(start) = path.start() else {
+            return Solutions::none(VertexClass::Hidden);
+        };
+        let unit = path.minimize(start);
+        let nearest = path.legs(unit)[0].1.min(path.legs(unit)[1].1);
+        if path.residual(unit) > RESIDUAL + ROUNDING / nearest {
+            return Solutions::none(VertexClass::Unknown);
+        }
+        Solutions {
+            class: VertexClass::Reflected,
+            points: vec![center + rotation * (unit * radii)],
+        }
     }
 }
 

@@ -6,9 +6,10 @@
 //! may well hide its inside), but for the eye's view of a torus or a saddle, whose front may hide
 //! its front.
 //!
-//! - sphere and bowl: the roots of Alhazen's quartic, all of them ([`mod@sphere`]);
+//! Each shape has a file of its own, named as in `scene::shape`, and a line in the function `exact`:
+//! - sphere and bowl: the roots of Alhazen's quartic, all of them (`alhazen`);
 //! - plane: the mirror image;
-//! - ellipsoid: the minimum of a convex function ([`mod@ellipsoid`]);
+//! - ellipsoid: the minimum of a convex function;
 //! - torus and saddle: all stationary points, by dividing the surface until each part is settled
 //!   (`stationary`);
 //! - mesh: not available, for its interpolated normals belong to no surface.
@@ -16,51 +17,45 @@
 //! Regions are those of Estalella et al., "Accurate Interactive Specular Reflections on Curved
 //! Objects", VMV 2005, §6.1. World space throughout.
 
-pub mod ellipsoid;
+mod alhazen;
+mod bowl;
+mod ellipsoid;
 mod patch;
+mod plane;
 mod quartic;
-pub mod sphere;
+mod saddle;
+mod solutions;
+mod sphere;
 mod stationary;
+mod torus;
 
 use catoptric_frame::{Frame, Status, TrueVertex, VertexClass};
-use catoptric_scene::{Mirror, Scene, Shape, View};
-use glam::{DMat3, DVec2, DVec3};
+use catoptric_scene::{Scene, Shape, View};
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
+use self::solutions::ExactPoints;
+pub use self::solutions::Solutions;
 use crate::error::NotAvailable;
 
-/// All reflection points of a vertex, whatever may stand in between.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Solutions {
-    /// Region the vertex lies in.
-    pub class: VertexClass,
-    /// World-space points; empty unless `class` is `Reflected`.
-    pub points: Vec<DVec3>,
-}
-
-impl Solutions {
-    pub(crate) fn none(class: VertexClass) -> Self {
-        Self {
-            class,
-            points: Vec::new(),
+/// A shape's exact solver, if it has one: a line for each.
+fn exact(shape: &Shape) -> Result<&dyn ExactPoints, NotAvailable> {
+    Ok(match shape {
+        Shape::Sphere(sphere) => sphere,
+        Shape::Ellipsoid(ellipsoid) => ellipsoid,
+        Shape::Plane(plane) => plane,
+        Shape::Bowl(bowl) => bowl,
+        Shape::Torus(torus) => torus,
+        Shape::Saddle(saddle) => saddle,
+        other if other.is_analytic() => {
+            let why = format!("they are not known of a {}", other.name());
+            return Err(NotAvailable(why));
         }
-    }
-
-    /// `Reflected` in the points of the whole surface that an open mirror keeps; else
-    /// `Unreflected` if the whole surface has any, else `Hidden`.
-    pub(crate) fn within(whole: Vec<DVec3>, keep: impl Fn(&DVec3) -> bool) -> Self {
-        if whole.is_empty() {
-            return Self::none(VertexClass::Hidden);
+        _ => {
+            let why = "a mesh mirror has interpolated normals, which belong to no exact surface";
+            return Err(NotAvailable(why.into()));
         }
-        let points: Vec<DVec3> = whole.into_iter().filter(keep).collect();
-        if points.is_empty() {
-            return Self::none(VertexClass::Unreflected);
-        }
-        Self {
-            class: VertexClass::Reflected,
-            points,
-        }
-    }
+    })
 }
 
 /// All points of the mirror at which `eye` sees `vertex` reflected, occlusion-free.
@@ -73,115 +68,27 @@ pub fn reflection_points(
     eye: DVec3,
     vertex: DVec3,
 ) -> Result<Solutions, NotAvailable> {
-    match shape {
-        Shape::Sphere { center, radius } => Ok(sphere::outside(*center, *radius, eye, vertex)),
-        Shape::Bowl {
-            center,
-            radius,
-            axis,
-            half_angle,
-        } => {
-            let solutions = sphere::inside(*center, *radius, *axis, *half_angle, eye, vertex);
-            Ok(match solutions.class {
-                VertexClass::Unreflected if !seen(shape, eye)(vertex) => {
-                    Solutions::none(VertexClass::Hidden)
-                }
-                _ => solutions,
-            })
-        }
-        Shape::Ellipsoid {
-            center,
-            radii,
-            rotation,
-        } => Ok(ellipsoid::outside(*center, *radii, *rotation, eye, vertex)),
-        Shape::Plane {
-            center,
-            normal,
-            up,
-            size,
-        } => {
-            let (eye_height, vertex_height) =
-                ((eye - center).dot(*normal), (vertex - center).dot(*normal));
-            if eye_height <= 0.0 || vertex_height <= 0.0 {
-                return Ok(Solutions::none(VertexClass::Hidden));
-            }
-            // Where the line from the eye to the mirror image crosses the plane.
-            let share = eye_height / (eye_height + vertex_height);
-            let foot = |point: DVec3, height: f64| point - height * normal;
-            let point = foot(eye, eye_height).lerp(foot(vertex, vertex_height), share);
-            let right = up.cross(*normal);
-            Ok(Solutions::within(vec![point], |point| {
-                let offset = point - center;
-                offset.dot(right).abs() <= size.x / 2.0 && offset.dot(*up).abs() <= size.y / 2.0
-            }))
-        }
-        Shape::Torus {
-            center,
-            axis,
-            major,
-            minor,
-        } => {
-            let patch = patch::Torus {
-                center: *center,
-                axis: *axis,
-                major: *major,
-                minor: *minor,
-            };
-            let solutions = stationary::reflection_points(&patch, eye, vertex, seen(shape, eye));
-            Ok(match solutions.class {
-                VertexClass::Unreflected => Solutions::none(VertexClass::Hidden),
-                _ => solutions,
-            })
-        }
-        Shape::Saddle {
-            center,
-            normal,
-            up,
-            size,
-            curvature,
-        } => {
-            let patch = patch::Saddle {
-                center: *center,
-                frame: DMat3::from_cols(up.cross(*normal), *up, *normal),
-                half: *size / 2.0,
-                curvature: *curvature,
-            };
-            Ok(stationary::reflection_points(
-                &patch,
-                eye,
-                vertex,
-                seen(shape, eye),
-            ))
-        }
-        Shape::Mesh(_) => Err(mesh()),
-    }
-}
-
-/// Whether a mirror does not hide a point, of its surface or behind it, from the eye.
-fn seen(shape: &Shape, eye: DVec3) -> impl Fn(DVec3) -> bool {
-    /// Share of a mirror's extent by which something hides before it counts as before.
-    const BEFORE: f64 = 1e-6;
-    let (low, high) = shape.bounds();
-    let margin = BEFORE * (high - low).length();
-    move |point| {
-        let offset = point - eye;
-        let first = shape.intersect(eye, offset.normalize(), 0.0);
-        first.is_none_or(|hit| hit.t > offset.length() - margin)
-    }
+    Ok(exact(shape)?.points(eye, vertex))
 }
 
 /// The exact answer for every (mirror, object vertex) pair: mirrors outer, then objects, then
 /// the objects' unique positions, all in scene order. The answer for mirror `m`, object `o`,
 /// vertex `v` is at `m · scene.vertex_count()` + the positions of all objects before `o` + `v`.
 ///
-/// Beside an analytic mirror, the answers for a mesh are [`VertexClass::Unknown`].
+/// Beside a mirror that has exact answers, those for one that has none are
+/// [`VertexClass::Unknown`].
 ///
 /// # Errors
 /// If no mirror has exact answers ([`reflection_points`]).
 pub fn true_vertices(scene: &Scene, view: &View) -> Result<Vec<TrueVertex>, NotAvailable> {
-    let analytic = |mirror: &Mirror| mirror.shape.is_analytic();
-    if !scene.mirrors.iter().any(analytic) {
-        return Err(mesh());
+    let mirrors: Vec<_> = scene
+        .mirrors
+        .iter()
+        .map(|mirror| exact(&mirror.shape))
+        .collect();
+    if mirrors.iter().all(Result::is_err) {
+        let first = mirrors.into_iter().find_map(Result::err);
+        return Err(first.unwrap_or_else(|| NotAvailable("there is no mirror".into())));
     }
     let positions: Vec<DVec3> = scene
         .objects
@@ -189,23 +96,24 @@ pub fn true_vertices(scene: &Scene, view: &View) -> Result<Vec<TrueVertex>, NotA
         .flat_map(|object| &object.mesh.positions)
         .map(|position| position.as_dvec3())
         .collect();
-    let (mirrors, count) = (&scene.mirrors, positions.len());
-    (0..mirrors.len() * count)
+    let count = positions.len();
+    let answers = (0..mirrors.len() * count)
         .into_par_iter()
         .with_min_len(64)
         .map(|index| {
-            let (mirror, vertex) = (&mirrors[index / count], positions[index % count]);
-            let solutions = match analytic(mirror) {
-                true => reflection_points(&mirror.shape, view.eye, vertex)?,
-                false => Solutions::none(VertexClass::Unknown),
+            let vertex = positions[index % count];
+            let solutions = match &mirrors[index / count] {
+                Ok(mirror) => mirror.points(view.eye, vertex),
+                Err(_) => Solutions::none(VertexClass::Unknown),
             };
             let project = |point: DVec3| (point, view.project(point).map(|(at, _)| at));
-            Ok(TrueVertex {
+            TrueVertex {
                 class: solutions.class,
                 points: solutions.points.into_iter().map(project).collect(),
-            })
+            }
         })
-        .collect()
+        .collect();
+    Ok(answers)
 }
 
 /// Image coordinates of those solutions that lie in view: they project into the image, onto a
@@ -240,8 +148,4 @@ pub fn points_in_view<'a>(
 /// True where the vertex has at least one solution in view ([`points_in_view`]).
 pub fn in_view(vertex: &TrueVertex, frame: &Frame, mirror_id: u32) -> bool {
     points_in_view(vertex, frame, mirror_id).next().is_some()
-}
-
-fn mesh() -> NotAvailable {
-    NotAvailable("a mesh mirror has interpolated normals, which belong to no exact surface".into())
 }

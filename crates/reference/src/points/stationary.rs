@@ -19,8 +19,8 @@
 use catoptric_frame::VertexClass;
 use glam::{DMat2, DVec2, DVec3};
 
-use super::Solutions;
 use super::patch::{Bounds, Jet, Patch};
+use super::solutions::Solutions;
 
 /// A solution is a point where the unit vectors to eye and vertex cancel along the surface to this.
 const RESIDUAL: f64 = 1e-12;

@@ -3,6 +3,7 @@
 
 use std::f64::consts::PI;
 
+use catoptric_scene::shape::{Bowl, Ellipsoid, Sphere};
 use catoptric_scene::{
     Background, Camera, Fov, Material, Mesh, Mirror, Object, Paint, Scene, Shape,
 };
@@ -104,26 +105,26 @@ pub fn quad(name: &str, corner: Vec3, u: Vec3, v: Vec3, color: Vec3) -> Object {
 }
 
 pub fn unit_sphere() -> Shape {
-    Shape::Sphere {
+    Shape::Sphere(Sphere {
         center: DVec3::ZERO,
         radius: 1.0,
-    }
+    })
 }
 
 pub fn prototype_ellipsoid() -> Shape {
-    Shape::Ellipsoid {
+    Shape::Ellipsoid(Ellipsoid {
         center: DVec3::ZERO,
         radii: DVec3::new(1.5, 0.7, 1.0),
         rotation: DMat3::IDENTITY,
-    }
+    })
 }
 
 /// z < −0.75 of a sphere of radius 1.5 around the origin.
 pub fn prototype_bowl() -> Shape {
-    Shape::Bowl {
+    Shape::Bowl(Bowl {
         center: DVec3::ZERO,
         radius: 1.5,
         axis: DVec3::NEG_Z,
         half_angle: PI / 3.0,
-    }
+    })
 }

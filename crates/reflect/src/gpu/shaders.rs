@@ -2,6 +2,10 @@
 //!
 //! `shaders/shared/` holds modules to import; every other file is a program with entry points.
 //! A program's features are the names in its `@if(…)` and those of the modules it imports.
+//!
+//! Where one module of a folder is to be chosen by number, a line `//each FOLDER: CODE` stands for
+//! its code once a module of `FOLDER`, with `$name` and `$number` ([`number_in`]) put in: a new
+//! module there needs no other line.
 
 use include_dir::{Dir, include_dir};
 use wesl::{ManglerKind, VirtualResolver, Wesl};
@@ -36,10 +40,10 @@ pub fn link(program: &str, features: &[&str]) -> Result<String, String> {
     files(&SHADERS, &mut modules);
     let mut resolver = VirtualResolver::new();
     let module = |name: &str| format!("package::{}", name.replace('/', "::"));
-    for (name, text) in modules {
-        let path = module(&name);
+    for (name, text) in &modules {
+        let path = module(name);
         let path = path.parse().map_err(|error| format!("{name}: {error}"))?;
-        resolver.add_module(path, text.into());
+        resolver.add_module(path, expanded(text, &modules).into());
     }
     let mut compiler = Wesl::new_barebones().set_custom_resolver(resolver);
     compiler
@@ -58,6 +62,44 @@ pub fn link(program: &str, features: &[&str]) -> Result<String, String> {
         .compile(&root)
         .map_err(|error| format!("{program}.wesl: {error}"))?;
     Ok(linked.to_string())
+}
+
+/// Names of the modules of a folder, sorted.
+fn names_in<'m>(folder: &str, modules: &'m [(String, &str)]) -> Vec<&'m str> {
+    let names = modules.iter().filter_map(|(path, _)| {
+        let (of, name) = path.rsplit_once('/')?;
+        (of == folder).then_some(name)
+    });
+    let mut names: Vec<_> = names.collect();
+    names.sort_unstable();
+    names
+}
+
+/// The number by which shaders choose a module of a folder; `None` if it is not there.
+pub(crate) fn number_in(folder: &str, name: &str) -> Option<u32> {
+    let mut modules = Vec::new();
+    files(&SHADERS, &mut modules);
+    let names = names_in(folder, &modules);
+    let index = names.iter().position(|other| *other == name);
+    index.map(|index| index as u32)
+}
+
+/// The text of a module with its lines `//each FOLDER: CODE` written out.
+fn expanded(text: &str, modules: &[(String, &str)]) -> String {
+    let mut lines = Vec::new();
+    for line in text.lines() {
+        let each = line.trim_start().strip_prefix("//each ");
+        let Some((folder, code)) = each.and_then(|each| each.split_once(": ")) else {
+            lines.push(line.to_owned());
+            continue;
+        };
+        let names = names_in(folder, modules).into_iter().zip(0_u32..);
+        lines.extend(names.map(|(name, number)| {
+            let code = code.replace("$name", name);
+            code.replace("$number", &number.to_string())
+        }));
+    }
+    lines.join("\n")
 }
 
 #[cfg(test)]

@@ -346,7 +346,7 @@ fn face_view(center: DVec3, face: u32, size: u32) -> View {
 fn mirrors_from(stage: &Stage, center: DVec3) -> impl Iterator<Item = MirrorUniform> {
     let scene = &stage.world.scene;
     let mirrors = scene.mirrors.iter().zip(&stage.world.mirrors);
-    mirrors.map(move |(mirror, on_gpu)| MirrorUniform::new(&mirror.shape, on_gpu.id, center))
+    mirrors.map(move |(mirror, on_gpu)| MirrorUniform::new(&*mirror.shape, on_gpu.id, center))
 }
 
 #[cfg(test)]

@@ -1,8 +1,14 @@
 //! A mirror's shape and place, as shaders read them.
 
-use catoptric_scene::Shape;
+use catoptric_scene::MirrorShape;
+use catoptric_scene::shape::ShaderInput;
 use encase::ShaderType;
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DMat3, DVec3, Vec3};
+
+use crate::gpu::shaders;
+
+/// Folder of the shader functions of mirror shapes, one module each.
+const SHAPES: &str = "shared/shape";
 
 /// Twin of `shared/mirror.wesl`.
 #[derive(Clone, Copy, Debug, ShaderType)]
@@ -12,76 +18,45 @@ pub(crate) struct MirrorUniform {
     pub eye: Vec3,
     pub id: u32,
     pub axis_x: Vec3,
-    pub cos_half_angle: f32,
+    pub more_x: f32,
     pub axis_y: Vec3,
-    pub curvature_x: f32,
+    pub more_y: f32,
     pub axis_z: Vec3,
-    pub curvature_y: f32,
-    pub radii: Vec3,
+    pub more_z: f32,
+    pub sizes: Vec3,
 }
 
 impl MirrorUniform {
-    /// `eye` in world space.
-    pub(crate) fn new(shape: &Shape, id: u32, eye: DVec3) -> Self {
-        let mut axes = [DVec3::X, DVec3::Y, DVec3::Z];
-        let mut curvature = DVec2::ZERO;
-        let (kind, radii, cos_half_angle) = match shape {
-            Shape::Sphere { radius, .. } => (0, DVec3::splat(*radius), 0.0),
-            Shape::Ellipsoid {
-                radii, rotation, ..
-            } => {
-                axes = [rotation.x_axis, rotation.y_axis, rotation.z_axis];
-                (0, *radii, 0.0)
-            }
-            Shape::Bowl {
-                radius,
-                axis,
-                half_angle,
-                ..
-            } => {
-                let x = axis.any_orthonormal_vector();
-                axes = [x, axis.cross(x), *axis];
-                (1, DVec3::splat(*radius), half_angle.cos())
-            }
-            Shape::Plane {
-                normal, up, size, ..
-            } => {
-                axes = [up.cross(*normal), *up, *normal];
-                (2, DVec3::new(size.x / 2.0, size.y / 2.0, 1.0), 0.0)
-            }
-            Shape::Torus {
-                axis, major, minor, ..
-            } => {
-                let x = axis.any_orthonormal_vector();
-                axes = [x, axis.cross(x), *axis];
-                (3, DVec3::new(*major, *minor, 1.0), 0.0)
-            }
-            Shape::Saddle {
-                normal,
-                up,
-                size,
-                curvature: bend,
-                ..
-            } => {
-                axes = [up.cross(*normal), *up, *normal];
-                curvature = *bend;
-                (4, DVec3::new(size.x / 2.0, size.y / 2.0, 1.0), 0.0)
-            }
-            Shape::Mesh(_) => (0, DVec3::ONE, 0.0),
-        };
+    /// `eye` in world space. A mesh has no shader function: rays meet its triangles.
+    ///
+    /// # Panics
+    /// Where the shape's shader function is not in its folder: a bug.
+    pub(crate) fn new(shape: &dyn MirrorShape, id: u32, eye: DVec3) -> Self {
         let center = shape.center();
+        let input = shape.shader_input();
+        let number = input.map_or(u32::MAX, |input| {
+            shaders::number_in(SHAPES, input.module)
+                .unwrap_or_else(|| panic!("no shader {SHAPES}/{}.wesl", input.module))
+        });
+        let input = input.unwrap_or(ShaderInput {
+            module: "",
+            axes: DMat3::IDENTITY,
+            sizes: DVec3::ONE,
+            more: DVec3::ZERO,
+        });
+        let (axes, more) = (input.axes, input.more.as_vec3());
         Self {
             center: center.as_vec3(),
-            shape: kind,
+            shape: number,
             eye: (eye - center).as_vec3(),
             id,
-            axis_x: axes[0].as_vec3(),
-            cos_half_angle: cos_half_angle as f32,
-            axis_y: axes[1].as_vec3(),
-            curvature_x: curvature.x as f32,
-            axis_z: axes[2].as_vec3(),
-            curvature_y: curvature.y as f32,
-            radii: radii.as_vec3(),
+            axis_x: axes.x_axis.as_vec3(),
+            more_x: more.x,
+            axis_y: axes.y_axis.as_vec3(),
+            more_y: more.y,
+            axis_z: axes.z_axis.as_vec3(),
+            more_z: more.z,
+            sizes: input.sizes.as_vec3(),
         }
     }
 }
@@ -100,12 +75,12 @@ mod tests {
                 eye,
                 id,
                 axis_x,
-                cos_half_angle,
+                more_x,
                 axis_y,
-                curvature_x,
+                more_y,
                 axis_z,
-                curvature_y,
-                radii
+                more_z,
+                sizes
             },
             "gbuffer",
             &[],

@@ -97,7 +97,7 @@ impl World {
                 MirrorOnGpu {
                     id,
                     exact,
-                    uniform: uniform(gpu, &MirrorUniform::new(&mirror.shape, id, eye)),
+                    uniform: uniform(gpu, &MirrorUniform::new(&*mirror.shape, id, eye)),
                     vertex_count: corners.len() as u32,
                     vertices: gpu
                         .device
@@ -147,7 +147,7 @@ impl World {
             .write_buffer(&self.positions, 0, bytemuck::cast_slice(&positions));
         let eye = scene.camera.view(self.size).eye;
         for (on_gpu, mirror) in self.mirrors.iter().zip(&scene.mirrors) {
-            let data = MirrorUniform::new(&mirror.shape, on_gpu.id, eye);
+            let data = MirrorUniform::new(&*mirror.shape, on_gpu.id, eye);
             set_uniform(gpu, &on_gpu.uniform, &data);
             let corners = mirror_corners(mirror, on_gpu.exact);
             gpu.queue

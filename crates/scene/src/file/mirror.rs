@@ -1,17 +1,14 @@
 //! `[[mirror]]`.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 use super::surface::{PRIMITIVES, Surface, copies, primitive};
 use super::{Origin, name};
-use crate::document::{SMALLEST, Table, short};
+use crate::document::Table;
 use crate::error::suggest;
-use crate::geometry::rotation;
 use crate::mesh::{Material, Mesh, Paint};
-use crate::{Mirror, SceneError, Shape};
-
-/// Shapes known exactly. Every other primitive makes a mesh mirror.
-const EXACT: [&str; 6] = ["sphere", "ellipsoid", "plane", "bowl", "torus", "saddle"];
+use crate::shape::{self, EXACT, Shape};
+use crate::{Mirror, SceneError};
 
 /// Reads a mirror, with its mesh if it is one.
 pub(super) fn mirror(table: &Table<'_>, origin: &Origin<'_>) -> Result<Mirror, SceneError> {
@@ -29,23 +26,10 @@ pub(super) fn mirror(table: &Table<'_>, origin: &Origin<'_>) -> Result<Mirror, S
             };
             Shape::Mesh(reflecting(table, origin, &surface)?)
         }
-        (None, Some("sphere")) => sphere(table)?,
-        (None, Some("ellipsoid")) => ellipsoid(table)?,
-        (None, Some("plane")) => plane(table)?,
-        (None, Some("bowl")) => bowl(table)?,
-        (None, Some("torus")) => torus(table)?,
-        (None, Some("saddle")) => saddle(table)?,
-        (None, Some(shape)) => {
-            let Some(surface) = primitive(table, shape)? else {
-                let meshes = PRIMITIVES.into_iter().filter(|name| !EXACT.contains(name));
-                let known: Vec<_> = EXACT.into_iter().chain(meshes).collect();
-                let suggestion = suggest(shape, known.iter().copied());
-                let known = known.join(", ");
-                let message = format_args!("`{shape}` is unknown{suggestion}; known: {known}");
-                return Err(table.error("shape", message));
-            };
-            Shape::Mesh(reflecting(table, origin, &surface)?)
-        }
+        (None, Some(name)) => match shape::read(name, table) {
+            Some(shape) => shape?,
+            None => Shape::Mesh(reflecting(table, origin, &other(table, name)?)?),
+        },
         (None, None) => {
             table.finish()?;
             return Err(table.error_here("needs `shape` or `mesh`"));
@@ -59,120 +43,15 @@ pub(super) fn mirror(table: &Table<'_>, origin: &Origin<'_>) -> Result<Mirror, S
     })
 }
 
-fn center(table: &Table<'_>) -> Result<DVec3, SceneError> {
-    Ok(table.vector("center")?.unwrap_or(DVec3::ZERO))
-}
-
-fn sphere(table: &Table<'_>) -> Result<Shape, SceneError> {
-    let center = center(table)?;
-    let radius = table.positive("radius")?;
-    table.finish()?;
-    Ok(Shape::Sphere {
-        center,
-        radius: table.required("radius", radius)?,
-    })
-}
-
-fn ellipsoid(table: &Table<'_>) -> Result<Shape, SceneError> {
-    let center = center(table)?;
-    let radii = table.vector("radii")?;
-    let degrees = table.vector("rotate_deg")?.unwrap_or(DVec3::ZERO);
-    table.finish()?;
-    let radii = table.required("radii", radii)?;
-    if radii.min_element() < SMALLEST {
-        return Err(table.error("radii", "must be positive"));
-    }
-    Ok(Shape::Ellipsoid {
-        center,
-        radii,
-        rotation: rotation(degrees),
-    })
-}
-
-/// `normal` and `up` (made perpendicular to it), and `size`.
-fn oriented(table: &Table<'_>) -> Result<(DVec3, DVec3, DVec2), SceneError> {
-    let normal = table.direction("normal")?;
-    let up = table.direction("up")?.unwrap_or(DVec3::Y);
-    let size = table.numbers::<2>("size")?;
-    table.finish()?;
-    let normal = table.required("normal", normal)?;
-    let size = DVec2::from(table.required("size", size)?);
-    if size.min_element() < SMALLEST {
-        return Err(table.error("size", "must be positive: the mirror has no area"));
-    }
-    let up = up - up.dot(normal) * normal;
-    if up.length() < 1e-6 {
-        return Err(table.error("up", "must not be parallel to `normal`"));
-    }
-    Ok((normal, up.normalize(), size))
-}
-
-fn plane(table: &Table<'_>) -> Result<Shape, SceneError> {
-    let center = center(table)?;
-    let (normal, up, size) = oriented(table)?;
-    Ok(Shape::Plane {
-        center,
-        normal,
-        up,
-        size,
-    })
-}
-
-fn saddle(table: &Table<'_>) -> Result<Shape, SceneError> {
-    let center = center(table)?;
-    let curvature = table.numbers::<2>("curvature")?;
-    let (normal, up, size) = oriented(table)?;
-    let curvature = DVec2::from(table.required("curvature", curvature)?);
-    if curvature.x * curvature.y >= 0.0 {
-        let message = "must be two numbers of opposite signs: along the width and along `up`";
-        return Err(table.error("curvature", message));
-    }
-    Ok(Shape::Saddle {
-        center,
-        normal,
-        up,
-        size,
-        curvature,
-    })
-}
-
-fn torus(table: &Table<'_>) -> Result<Shape, SceneError> {
-    let center = center(table)?;
-    let axis = table.direction("axis")?.unwrap_or(DVec3::Y);
-    let major = table.positive("major")?;
-    let minor = table.positive("minor")?;
-    table.finish()?;
-    let major = table.required("major", major)?;
-    let minor = table.required("minor", minor)?;
-    if minor >= major {
-        return Err(table.error("minor", "must be smaller than `major`"));
-    }
-    Ok(Shape::Torus {
-        center,
-        axis,
-        major,
-        minor,
-    })
-}
-
-fn bowl(table: &Table<'_>) -> Result<Shape, SceneError> {
-    let center = center(table)?;
-    let radius = table.positive("radius")?;
-    let axis = table.direction("axis")?;
-    let degrees = table.number("half_angle_deg")?;
-    table.finish()?;
-    let radius = table.required("radius", radius)?;
-    let axis = table.required("axis", axis)?;
-    let degrees = table.required("half_angle_deg", degrees)?;
-    if !(1e-3..180.0).contains(&degrees) {
-        let message = format_args!("must be between 0 and 180 degrees, not {}", short(degrees));
-        return Err(table.error("half_angle_deg", message));
-    }
-    Ok(Shape::Bowl {
-        center,
-        radius,
-        axis,
-        half_angle: degrees.to_radians(),
+/// A primitive that makes a mesh mirror: every one that is not a shape known exactly.
+fn other(table: &Table<'_>, name: &str) -> Result<Surface, SceneError> {
+    primitive(table, name)?.ok_or_else(|| {
+        let meshes = PRIMITIVES.iter().filter(|name| !EXACT.contains(name));
+        let known: Vec<_> = EXACT.iter().chain(meshes).copied().collect();
+        let suggestion = suggest(name, known.iter().copied());
+        let known = known.join(", ");
+        let message = format_args!("`{name}` is unknown{suggestion}; known: {known}");
+        table.error("shape", message)
     })
 }
 

@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::document::{SMALLEST, Table};
 use crate::error::suggest;
 use crate::motion::{CameraPath, Motion, Move, Subject};
-use crate::{Camera, Mirror, Object, SceneError, Shape};
+use crate::{Camera, Mirror, Object, SceneError};
 
 /// Most frames of a sequence.
 const MOST_FRAMES: u32 = 10_000;
@@ -139,11 +139,7 @@ fn check(motion: &Motion, camera: &Camera, mirrors: &[Mirror]) -> Result<(), Str
         }
         for (index, mirror) in &closed {
             let eye = motion.mirror_pose(*index, time).undone(now.eye);
-            let inside = match &mirror.shape {
-                Shape::Mesh(mesh) => mesh.winding_number(eye).abs() > 0.5,
-                shape => shape.contains(eye),
-            };
-            if inside {
+            if mirror.shape.encloses(eye) {
                 let name = &mirror.name;
                 return Err(format!(
                     "at frame {frame} the eye lies inside mirror \"{name}\", which is closed"

@@ -9,7 +9,7 @@ use crate::error::suggest;
 use crate::geometry::{Geometry, Transform};
 use crate::mesh::{Material, Mesh, Paint};
 use crate::mtl::DEFAULT_COLOR;
-use crate::shapes::{Inverse, inverse_points};
+use crate::primitives::{Inverse, inverse_points};
 use crate::{Camera, Mirror, SceneError};
 
 /// An object as written, checked but not built.

@@ -10,7 +10,7 @@ use super::Origin;
 use crate::document::{SMALLEST, Table, short};
 use crate::geometry::{Geometry, Transform, rotation};
 use crate::obj::{self, Materials};
-use crate::{SceneError, shapes};
+use crate::{SceneError, primitives};
 
 /// Triangles to be made or read.
 pub(super) enum Surface {
@@ -200,31 +200,31 @@ impl Surface {
         painted: bool,
     ) -> Result<Geometry, SceneError> {
         Ok(match self {
-            Self::Quad => shapes::grid(1),
-            Self::Grid { cells } => shapes::grid(*cells),
-            Self::Cuboid { cells } => shapes::cuboid(*cells),
+            Self::Quad => primitives::grid(1),
+            Self::Grid { cells } => primitives::grid(*cells),
+            Self::Cuboid { cells } => primitives::cuboid(*cells),
             Self::Sphere {
                 center,
                 radius,
                 segments,
-            } => shapes::sphere(*center, *radius, *segments),
+            } => primitives::sphere(*center, *radius, *segments),
             Self::Torus {
                 radius,
                 tube,
                 segments,
-            } => shapes::torus(*radius, *tube, *segments),
+            } => primitives::torus(*radius, *tube, *segments),
             Self::Lathe {
                 profile,
                 cells,
                 segments,
                 turn,
-            } => shapes::lathe(profile, *cells, *segments, *turn),
-            Self::Teapot { cells } => shapes::teapot(*cells),
+            } => primitives::lathe(profile, *cells, *segments, *turn),
+            Self::Teapot { cells } => primitives::teapot(*cells),
             Self::Triangles {
                 positions,
                 triangles,
                 colors,
-            } => shapes::triangles(positions, triangles, colors),
+            } => primitives::triangles(positions, triangles, colors),
             Self::Mesh { file, mtl } => {
                 let path = find(table, file, origin)?;
                 let materials = match mtl {

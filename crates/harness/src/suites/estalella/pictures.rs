@@ -203,18 +203,13 @@ fn region(studio: &Studio<'_>, name: &str, what: &str) -> anyhow::Result<Picture
     })
 }
 
-/// Whether a place belongs to the drawing of the mirror, whose line is so wide.
+/// Whether a place belongs to the drawing of the mirror, whose line is so wide: to the inside of a
+/// closed one, to the line of an open one.
 fn is_mirror(shape: &Shape, place: DVec3, line: f64) -> bool {
-    match shape {
-        Shape::Bowl {
-            center,
-            radius,
-            axis,
-            half_angle,
-        } => {
-            let offset = place - *center;
-            (offset.length() - radius).abs() < line && offset.angle_between(*axis) <= *half_angle
-        }
-        shape => shape.contains(place),
+    if shape.is_closed() {
+        return shape.encloses(place);
     }
+    let across = shape.normal_at(place).unwrap_or(DVec3::Y);
+    let hit = shape.intersect(place - line * across, across, 0.0);
+    hit.is_some_and(|hit| hit.t < 2.0 * line)
 }

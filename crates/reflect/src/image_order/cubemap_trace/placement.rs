@@ -6,7 +6,8 @@
 //! is resolved there with certainty (a sign change of Δ where the map is continuous). Then the maps
 //! are chosen greedily, each for the pixels that those before leave.
 
-use catoptric_scene::{Mesh, Mirror, Random, Scene, Shape};
+use catoptric_scene::shape::Facing;
+use catoptric_scene::{Mesh, Mirror, Random, Scene};
 use glam::DVec3;
 
 use super::march::{self, Effort};
@@ -97,11 +98,12 @@ fn candidates(
     let radius = (high - low).length() / 2.0;
     let mesh = mirror.shape.tessellate(mirror.tessellation.min(32));
     let inside = mirror.shape.is_closed() && !outside;
-    let first = match &mirror.shape {
-        Shape::Plane { center, normal, .. } => *center + 0.01 * radius * *normal,
-        Shape::Bowl { center, .. } => *center,
-        shape if inside => shape.center(),
-        _ => surface_point(scene, &mesh, rng, 0.2 * radius),
+    let first = if let Some((center, normal)) = mirror.shape.flat() {
+        center + 0.01 * radius * normal
+    } else if inside || mirror.shape.facing() == Ok(Facing::Inwards) {
+        mirror.shape.center()
+    } else {
+        surface_point(scene, &mesh, rng, 0.2 * radius)
     };
     let mut points = vec![first];
     while points.len() < count {

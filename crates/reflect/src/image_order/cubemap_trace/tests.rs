@@ -98,10 +98,10 @@ fn a_mirror_that_moved_is_seen_where_it_is() {
     };
     let mut moving = ready(&scene);
     let before = picture(&mut moving);
-    let catoptric_scene::Shape::Bowl { center, .. } = &mut scene.mirrors[0].shape else {
+    let catoptric_scene::Shape::Bowl(bowl) = &mut scene.mirrors[0].shape else {
         panic!("a bowl")
     };
-    center.x += 0.3;
+    bowl.center.x += 0.3;
     moving.update(&scene).expect("the same scene");
     let moved = picture(&mut moving);
     assert_ne!(before, moved);

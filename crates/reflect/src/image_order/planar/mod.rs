@@ -4,7 +4,7 @@
 //! where its mirror image is seen, without a change of handedness afterwards.
 
 use catoptric_frame::Work;
-use catoptric_scene::{Scene, Shape, View};
+use catoptric_scene::{Scene, View};
 use glam::DVec3;
 
 use super::{ImageOrder, Recipe, draw_reflections};
@@ -35,7 +35,7 @@ impl Recipe for Planar {
     /// There is no mirrored eye for a mirror that is not flat.
     fn objection(&self, scene: &Scene) -> Option<String> {
         let mut mirrors = scene.mirrors.iter();
-        let curved = mirrors.find(|mirror| !matches!(mirror.shape, Shape::Plane { .. }));
+        let curved = mirrors.find(|mirror| mirror.shape.flat().is_none());
         curved.map(|mirror| format!("mirror `{}` is not a plane", mirror.name))
     }
 
@@ -79,9 +79,8 @@ fn mirrored_views(stage: &Stage) -> impl Iterator<Item = ViewUniform> {
     let scene = &stage.world.scene;
     let view = scene.camera.view(stage.world.size);
     scene.mirrors.iter().map(move |mirror| {
-        let Shape::Plane { center, normal, .. } = mirror.shape else {
-            unreachable!("curved mirrors are objected to")
-        };
+        let flat = mirror.shape.flat();
+        let (center, normal) = flat.expect("curved mirrors are objected to");
         ViewUniform::from_view(scene, &mirrored(&view, center, normal))
     })
 }

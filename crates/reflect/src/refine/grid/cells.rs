@@ -238,12 +238,13 @@ fn frame(positions: &[Vec3], anchors: [usize; 3]) -> DAffine3 {
 
 #[cfg(test)]
 mod tests {
-    use catoptric_scene::Shape;
+    use catoptric_scene::MirrorShape;
+    use catoptric_scene::shape::Sphere;
 
     use super::*;
 
     fn sphere() -> Vec<Vec3> {
-        let shape = Shape::Sphere {
+        let shape = Sphere {
             center: DVec3::new(2.0, 0.5, -1.0),
             radius: 0.7,
         };

@@ -10,7 +10,7 @@ mod cells;
 mod tests;
 
 use catoptric_frame::{Triangles, VertexResult};
-use catoptric_scene::{Scene, Shape};
+use catoptric_scene::{MirrorShape, Scene};
 use encase::ShaderType;
 use glam::{DVec3, Vec3};
 
@@ -169,25 +169,21 @@ fn places(meshes: &[Mesh], scene: &Scene) -> Vec<Place> {
 
 /// The inside of a mirror.
 struct Solid<'a> {
-    shape: &'a Shape,
+    shape: &'a dyn MirrorShape,
     low: DVec3,
     high: DVec3,
 }
 
 impl<'a> Solid<'a> {
     /// `None` for a mirror that encloses nothing.
-    fn new(shape: &'a Shape) -> Option<Self> {
+    fn new(shape: &'a dyn MirrorShape) -> Option<Self> {
         let (low, high) = shape.bounds();
         shape.is_closed().then_some(Self { shape, low, high })
     }
 
     fn contains(&self, point: DVec3) -> bool {
         let in_box = point.cmpge(self.low).all() && point.cmple(self.high).all();
-        in_box
-            && match self.shape {
-                Shape::Mesh(mesh) => mesh.winding_number(point).abs() > 0.5,
-                shape => shape.contains(point),
-            }
+        in_box && self.shape.encloses(point)
     }
 }
 
@@ -228,11 +224,11 @@ impl Interpolation {
     fn searches(&self, gpu: &Gpu, stage: &Stage) -> Vec<OnMirror> {
         let shapes = self.scene.mirrors.iter().map(|mirror| &mirror.shape);
         shapes
-            .map(|shape| self.on_mirror(gpu, stage, shape))
+            .map(|shape| self.on_mirror(gpu, stage, &**shape))
             .collect()
     }
 
-    fn on_mirror(&self, gpu: &Gpu, stage: &Stage, shape: &Shape) -> OnMirror {
+    fn on_mirror(&self, gpu: &Gpu, stage: &Stage, shape: &dyn MirrorShape) -> OnMirror {
         let solid = Solid::new(shape);
         let mut positions: Vec<[f32; 4]> = Vec::new();
         let four = |p: Vec3| [p.x, p.y, p.z, 1.0];

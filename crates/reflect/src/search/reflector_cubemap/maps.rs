@@ -11,7 +11,8 @@
 //! Face `2k` looks along axis `k` (x, y, z), face `2k + 1` against it. Coordinates on a face are
 //! the direction's components along axes `k + 1` and `k + 2` (cyclic) where that along `k` is ±1.
 
-use catoptric_scene::{Mesh, Shape};
+use catoptric_scene::shape::Facing;
+use catoptric_scene::{Mesh, MirrorShape};
 use glam::DVec3;
 
 /// Position and normal of one texel, relative to the mirror's centre.
@@ -35,38 +36,8 @@ pub(crate) struct Maps {
 }
 
 /// Why a mirror has no cube maps; `None` if it has.
-pub(crate) fn objection(shape: &Shape) -> Option<&'static str> {
-    match shape {
-        Shape::Sphere { .. } | Shape::Ellipsoid { .. } | Shape::Bowl { .. } => None,
-        Shape::Plane { .. } | Shape::Saddle { .. } => {
-            Some("is open, and no closed shape stands for it that a centre sees whole")
-        }
-        Shape::Torus { .. } => Some("is not seen whole from its centre, as a cube map needs"),
-        Shape::Mesh(mesh) if !mesh.is_closed() => {
-            Some("is open, and no closed shape stands for it")
-        }
-        Shape::Mesh(mesh) if !is_star_shaped(mesh, shape.center()) => {
-            Some("is not seen whole from its centre, as a cube map needs")
-        }
-        Shape::Mesh(_) => None,
-    }
-}
-
-/// Whether a closed mesh turns the reflecting side of every triangle away from `center`, so that
-/// each ray from there meets it exactly once.
-fn is_star_shaped(mesh: &Mesh, center: DVec3) -> bool {
-    let volumes = mesh.triangles.iter().map(|triangle| {
-        let [a, b, c] = corners(mesh, triangle, center);
-        a.dot(b.cross(c))
-    });
-    let (least, greatest) = volumes.fold((f64::MAX, f64::MIN), |(least, greatest), volume| {
-        (least.min(volume), greatest.max(volume))
-    });
-    let outwards = |(triangle, normals): (&[u32; 3], &[glam::Vec3; 3])| {
-        let middle: DVec3 = corners(mesh, triangle, center).into_iter().sum();
-        middle.dot((normals[0] + normals[1] + normals[2]).as_dvec3()) > 0.0
-    };
-    (least > 0.0 || greatest < 0.0) && (mesh.triangles.iter().zip(&mesh.normals)).all(outwards)
+pub(crate) fn objection(shape: &dyn MirrorShape) -> Option<&'static str> {
+    shape.facing().err()
 }
 
 fn corners(mesh: &Mesh, triangle: &[u32; 3], center: DVec3) -> [DVec3; 3] {
@@ -90,23 +61,21 @@ impl Maps {
     ///
     /// # Panics
     /// On a shape to which there is an [`objection`].
-    pub(crate) fn new(shape: &Shape, size: u32) -> Self {
-        let (texels, facing) = match shape {
-            Shape::Mesh(mesh) => (of_mesh(mesh, shape.center(), size), 1.0),
-            Shape::Bowl { center, radius, .. } => {
-                let (center, radius) = (*center, *radius);
-                (of_surface(&Shape::Sphere { center, radius }, size), -1.0)
-            }
-            _ => (of_surface(shape, size), 1.0),
+    pub(crate) fn new(shape: &dyn MirrorShape, size: u32) -> Self {
+        let facing = shape.facing().expect("the shape has cube maps");
+        let texels = match shape.as_mesh() {
+            Some(mesh) => of_mesh(mesh, shape.center(), size),
+            None => of_surface(shape, size),
         };
         let four = |v: DVec3| [v.x as f32, v.y as f32, v.z as f32, 0.0];
         Self {
             size,
             positions: texels.iter().map(|texel| four(texel.position)).collect(),
-            normals: (texels.iter())
-                .map(|texel| four(f64::from(facing) * texel.normal))
-                .collect(),
-            facing,
+            normals: texels.iter().map(|texel| four(texel.normal)).collect(),
+            facing: match facing {
+                Facing::Outwards => 1.0,
+                Facing::Inwards => -1.0,
+            },
         }
     }
 }
@@ -116,7 +85,7 @@ fn coordinate(texel: u32, size: u32) -> f64 {
     2.0 * f64::from(texel) / f64::from(size - 1) - 1.0
 }
 
-fn of_surface(shape: &Shape, size: u32) -> Vec<Texel> {
+fn of_surface(shape: &dyn MirrorShape, size: u32) -> Vec<Texel> {
     let center = shape.center();
     let mut texels = Vec::with_capacity(6 * (size * size) as usize);
     for face in 0..6 {
@@ -125,8 +94,8 @@ fn of_surface(shape: &Shape, size: u32) -> Vec<Texel> {
             for column in 0..size {
                 let [x, y] = [column, row].map(|texel| coordinate(texel, size));
                 let direction = (axis + x * right + y * down).normalize();
-                let hit = (shape.intersect(center, direction, 0.0))
-                    .expect("the centre is inside the mirror");
+                let hit = shape.from_center(direction);
+                let hit = hit.expect("the centre is inside the mirror");
                 texels.push(Texel {
                     position: hit.position - center,
                     normal: hit.normal,
@@ -222,14 +191,15 @@ fn project(
 
 #[cfg(test)]
 mod tests {
+    use catoptric_scene::shape::{Bowl, Ellipsoid, Plane, Sphere};
     use glam::{DMat3, Vec3};
 
     use super::*;
 
     const SIZE: u32 = 17;
 
-    fn ellipsoid() -> Shape {
-        Shape::Ellipsoid {
+    fn ellipsoid() -> Ellipsoid {
+        Ellipsoid {
             center: DVec3::new(0.3, -2.0, 1.0),
             radii: DVec3::new(1.5, 0.7, 1.0),
             rotation: DMat3::from_rotation_y(0.4),
@@ -262,7 +232,7 @@ mod tests {
         // and a facet has one along the ring and one across.
         const CHORD: f32 = 0.0065;
         let shape = ellipsoid();
-        let mesh = Shape::Mesh(shape.tessellate(48));
+        let mesh = shape.tessellate(48);
         assert_eq!(objection(&mesh), None);
         let (exact, drawn) = (Maps::new(&shape, SIZE), Maps::new(&mesh, SIZE));
         let gap = |a: &[[f32; 4]], b: &[[f32; 4]]| {
@@ -281,14 +251,14 @@ mod tests {
     fn a_bowl_has_the_maps_of_its_sphere_from_inside() {
         let center = DVec3::new(0.3, -2.0, 1.0);
         let radius = 1.5;
-        let bowl = Shape::Bowl {
+        let bowl = Bowl {
             center,
             radius,
             axis: DVec3::NEG_Z,
             half_angle: 1.0,
         };
-        let (sphere, bowl) = (Shape::Sphere { center, radius }, bowl);
-        let [outside, inside] = [sphere, bowl].map(|shape| Maps::new(&shape, SIZE));
+        let outside = Maps::new(&Sphere { center, radius }, SIZE);
+        let inside = Maps::new(&bowl, SIZE);
         assert_eq!(inside.positions, outside.positions);
         let turned = outside.normals.iter().map(|normal| normal.map(|c| -c));
         assert!(inside.normals.iter().copied().eq(turned));
@@ -297,7 +267,7 @@ mod tests {
 
     #[test]
     fn open_inside_out_and_winding_mirrors_are_refused() {
-        let plane = Shape::Plane {
+        let plane = Plane {
             center: DVec3::ZERO,
             normal: DVec3::Y,
             up: DVec3::X,
@@ -307,14 +277,14 @@ mod tests {
         let mut open = ellipsoid().tessellate(16);
         open.triangles.pop();
         open.normals.pop();
-        assert!(objection(&Shape::Mesh(open)).is_some_and(|reason| reason.contains("closed")));
+        assert!(objection(&open).is_some_and(|reason| reason.contains("closed")));
         let mut inside = ellipsoid().tessellate(16);
         for normal in inside.normals.as_flattened_mut() {
             *normal = -*normal;
         }
-        assert!(objection(&Shape::Mesh(inside)).is_some_and(|reason| reason.contains("whole")));
+        assert!(objection(&inside).is_some_and(|reason| reason.contains("whole")));
         let mut dented = ellipsoid().tessellate(16);
         dented.positions[0] = Vec3::new(0.3, -2.6, 1.0);
-        assert!(objection(&Shape::Mesh(dented)).is_some_and(|reason| reason.contains("whole")));
+        assert!(objection(&dented).is_some_and(|reason| reason.contains("whole")));
     }
 }

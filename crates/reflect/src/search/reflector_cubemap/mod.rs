@@ -63,7 +63,7 @@ impl Named for ReflectorCubemap {
 impl Recipe for ReflectorCubemap {
     fn objection(&self, _: &SearchOptions, scene: &Scene) -> Option<String> {
         scene.mirrors.iter().find_map(|mirror| {
-            let reason = maps::objection(&mirror.shape)?;
+            let reason = maps::objection(&*mirror.shape)?;
             Some(format!("mirror `{}` {reason}", mirror.name))
         })
     }
@@ -151,7 +151,7 @@ impl InMaps {
     /// Makes the maps of a mirror.
     fn build(&mut self, gpu: &Gpu, mirror: &Mirror) -> OnGpu {
         self.builds += 1;
-        let maps = Maps::new(&mirror.shape, self.options.size);
+        let maps = Maps::new(&*mirror.shape, self.options.size);
         let settings = uniform(gpu, &Settings::new(&self.options, maps.facing));
         let views = [&maps.positions, &maps.normals].map(|texels| {
             let texture = faces(gpu, maps.size, texels);

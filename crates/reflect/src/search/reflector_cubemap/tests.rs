@@ -242,15 +242,15 @@ fn maps_are_made_again_for_a_mirror_that_moves_and_only_then() {
     scene.camera.eye += DVec3::new(0.1, 0.2, 0.0);
     scene.objects[0].mesh.positions[0] += 0.5;
     assert_eq!(builds_after(&scene), 0, "eye and objects");
-    let Shape::Sphere { center, .. } = &mut scene.mirrors[0].shape else {
+    let Shape::Sphere(sphere) = &mut scene.mirrors[0].shape else {
         panic!("a sphere")
     };
-    center.x += 0.1;
+    sphere.center.x += 0.1;
     assert_eq!(builds_after(&scene), 1, "moved");
-    let Shape::Sphere { radius, .. } = &mut scene.mirrors[0].shape else {
+    let Shape::Sphere(sphere) = &mut scene.mirrors[0].shape else {
         panic!("a sphere")
     };
-    *radius *= 1.01;
+    sphere.radius *= 1.01;
     assert_eq!(builds_after(&scene), 2, "deformed");
     assert_eq!(builds_after(&scene), 2, "at rest");
 }

@@ -84,7 +84,7 @@ impl CubemapWalk {
     /// # Panics
     /// On options of another technique, or a mirror that has no cube maps.
     pub fn new(options: &Options, scene: &Scene, mirror: usize) -> Self {
-        let shape = &scene.mirrors[mirror].shape;
+        let shape = &*scene.mirrors[mirror].shape;
         assert_eq!(objection(shape), None);
         let own = options.of();
         let (own, mut common): (ReflectorCubemap, _) = own.expect("options of this search");

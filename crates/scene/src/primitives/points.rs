@@ -3,8 +3,9 @@
 use glam::{DVec2, DVec3};
 
 use crate::camera::Camera;
-use crate::mirror::{Mirror, SurfaceHit};
+use crate::mirror::Mirror;
 use crate::random::Random;
+use crate::shape::SurfaceHit;
 
 /// How to construct points backwards from the image.
 pub(crate) struct Inverse {
@@ -84,7 +85,8 @@ pub(crate) fn inverse_points(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Fov, Shape};
+    use crate::Fov;
+    use crate::shape::{Bowl, Shape, Sphere};
 
     fn camera() -> Camera {
         Camera {
@@ -107,10 +109,10 @@ mod tests {
 
     #[test]
     fn the_same_seed_gives_the_same_points_at_the_distances_asked_for() {
-        let mirrors = mirror(Shape::Sphere {
+        let mirrors = mirror(Shape::Sphere(Sphere {
             center: DVec3::ZERO,
             radius: 1.0,
-        });
+        }));
         let make = |seed| {
             let inverse = Inverse {
                 count: 200,
@@ -130,12 +132,12 @@ mod tests {
 
     #[test]
     fn in_a_bowl_points_lie_before_the_second_meeting() {
-        let shape = Shape::Bowl {
+        let shape = Shape::Bowl(Bowl {
             center: DVec3::ZERO,
             radius: 1.5,
             axis: DVec3::NEG_Z,
             half_angle: 1.4,
-        };
+        });
         let inverse = Inverse {
             count: 300,
             seed: 1,
@@ -151,10 +153,10 @@ mod tests {
 
     #[test]
     fn a_mirror_out_of_view_has_no_points() {
-        let mirrors = mirror(Shape::Sphere {
+        let mirrors = mirror(Shape::Sphere(Sphere {
             center: DVec3::Z * 9.0,
             radius: 1.0,
-        });
+        }));
         let inverse = Inverse {
             count: 1,
             seed: 1,

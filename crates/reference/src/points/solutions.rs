@@ -1,0 +1,58 @@
+//! What is asked of a mirror shape, and what it answers.
+
+use catoptric_frame::VertexClass;
+use catoptric_scene::MirrorShape;
+use glam::DVec3;
+
+/// A shape whose reflection points are known exactly.
+pub(super) trait ExactPoints: Sync {
+    /// All points at which `eye` sees `vertex` reflected, whatever may stand in between.
+    fn points(&self, eye: DVec3, vertex: DVec3) -> Solutions;
+}
+
+/// All reflection points of a vertex, whatever may stand in between.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solutions {
+    /// Region the vertex lies in.
+    pub class: VertexClass,
+    /// World-space points; empty unless `class` is `Reflected`.
+    pub points: Vec<DVec3>,
+}
+
+impl Solutions {
+    pub(super) fn none(class: VertexClass) -> Self {
+        Self {
+            class,
+            points: Vec::new(),
+        }
+    }
+
+    /// `Reflected` in the points of the whole surface that an open mirror keeps; else
+    /// `Unreflected` if the whole surface has any, else `Hidden`.
+    pub(super) fn within(whole: Vec<DVec3>, keep: impl Fn(&DVec3) -> bool) -> Self {
+        if whole.is_empty() {
+            return Self::none(VertexClass::Hidden);
+        }
+        let points: Vec<DVec3> = whole.into_iter().filter(keep).collect();
+        if points.is_empty() {
+            return Self::none(VertexClass::Unreflected);
+        }
+        Self {
+            class: VertexClass::Reflected,
+            points,
+        }
+    }
+}
+
+/// Whether a mirror does not hide a point, of its surface or behind it, from the eye.
+pub(super) fn seen(shape: &impl MirrorShape, eye: DVec3) -> impl Fn(DVec3) -> bool {
+    /// Share of a mirror's extent by which something hides before it counts as before.
+    const BEFORE: f64 = 1e-6;
+    let (low, high) = shape.bounds();
+    let margin = BEFORE * (high - low).length();
+    move |point| {
+        let offset = point - eye;
+        let first = shape.intersect(eye, offset.normalize(), 0.0);
+        first.is_none_or(|hit| hit.t > offset.length() - margin)
+    }
+}

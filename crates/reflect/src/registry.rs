@@ -24,10 +24,10 @@ static TECHNIQUES: &[Technique] = &[
     refinement::<refine::grid::Grid>(),
     missing(Family::Refinement, "+pixel", "crack-free, error in pixels"),
     missing(Family::Refinement, "+exact", "ray-triangle test a fragment"),
-    options::ENVIRONMENT_MAP,
+    image_order::<image_order::environment_map::EnvironmentMap>(),
     image_order::<image_order::planar::Planar>(),
     options::CUBEMAP_TRACE,
-    options::RAY_TRACE,
+    image_order::<image_order::ray_trace::RayTrace>(),
 ];
 
 /// A technique of the list.

@@ -10,10 +10,57 @@ use crate::gpu::{
     Begin, DEPTH, FLOAT4, Gpu, RasterEntries, Recorder, Slot, group, layout, module, raster_to,
     set_uniform, storage_bytes, target, texture_array, uniform,
 };
+use crate::options::{options, words};
 use crate::stage::Stage;
 use crate::stage::extent::{beyond, diagonal};
 use crate::stage::mirror::MirrorUniform;
 use crate::stage::view::ViewUniform;
+
+words! {
+    /// Texels a side of a cube face: each a power of two, so that a pyramid ends in one cell.
+    pub(crate) enum Size {
+        Texels256 = "256",
+        Texels32 = "32",
+        Texels64 = "64",
+        Texels128 = "128",
+        Texels512 = "512",
+        Texels1024 = "1024",
+    }
+}
+
+impl Size {
+    /// The number.
+    pub(crate) fn texels(self) -> u32 {
+        match self {
+            Self::Texels256 => 256,
+            Self::Texels32 => 32,
+            Self::Texels64 => 64,
+            Self::Texels128 => 128,
+            Self::Texels512 => 512,
+            Self::Texels1024 => 1024,
+        }
+    }
+}
+
+words! {
+    /// When maps are drawn.
+    pub(crate) enum Update {
+        /// When the technique is made ready.
+        Static = "static",
+        /// In every frame.
+        Frame = "frame",
+    }
+}
+
+options! {
+    /// Options of techniques that look into cube maps of the scene.
+    pub(crate) struct MapOptions {
+        /// texels a side of a cube face
+        size: Size,
+        /// whether the maps are drawn once or in every frame
+        update: Update,
+    }
+}
 
 /// Faces of a cube.
 pub(crate) const FACES: u32 = 6;
@@ -352,9 +399,36 @@ fn mirrors_from(stage: &Stage, center: DVec3) -> impl Iterator<Item = MirrorUnif
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::options::Words;
+    use crate::testing::assert_layout;
 
     /// Rounding of f64 in texels.
     const TEXELS: f64 = 1e-9;
+
+    #[test]
+    fn a_size_is_the_number_that_it_is_written_as() {
+        for (size, word) in Size::ALL.iter().zip(Size::WORDS) {
+            assert_eq!(size.texels().to_string(), *word);
+            assert!(size.texels().is_power_of_two());
+        }
+    }
+
+    #[test]
+    fn the_maps_lie_as_shaders_read_them() {
+        for program in ["environment_map", "cubemap_trace", "distance_pyramid"] {
+            assert_layout!(
+                MapsUniform {
+                    size,
+                    count,
+                    far,
+                    diagonal
+                },
+                program,
+                &["texels"],
+                "Maps"
+            );
+        }
+    }
 
     /// The twin of `face_point` in `shared/cubemap.wesl`, for directions within a face.
     fn face_point(direction: DVec3) -> (u32, DVec2) {

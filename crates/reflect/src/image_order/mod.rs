@@ -2,7 +2,7 @@
 //! as its shader: mirror G-buffer → technique → composite.
 
 pub(crate) mod cubemap_trace;
-mod cubemaps;
+pub(crate) mod cubemaps;
 pub(crate) mod environment_map;
 mod per_pixel;
 pub(crate) mod planar;

@@ -1,9 +1,10 @@
 //! Techniques whose options are still read by key.
 
 use super::{Read, Technique, introduced};
-use crate::image_order::{Keyed, cubemap_trace, environment_map, ray_trace};
+use crate::image_order::cubemaps::MapOptions;
+use crate::image_order::{Keyed, cubemap_trace};
 use crate::options::{OptionInfo, Options, Settled, Values};
-use crate::stage::options::{StageOptions, Surface};
+use crate::stage::options::StageOptions;
 use crate::technique::{Family, Info, Properties, TechniqueInfo};
 
 const fn keyed(
@@ -24,24 +25,11 @@ const fn keyed(
     }
 }
 
-pub(super) const ENVIRONMENT_MAP: Technique = keyed(
-    "environment-map",
-    "one cube map from each mirror's centre, looked up in the reflected direction",
-    "baseline",
-    &[ENVIRONMENT_MAP_OPTIONS, CUBE_MAPS_OPTIONS],
-    Keyed {
-        make: environment_map::make,
-        objection: environment_map::objection,
-        properties: Properties::NONE,
-    },
-    |_| Properties::NONE,
-);
-
 pub(super) const CUBEMAP_TRACE: Technique = keyed(
     "cubemap-trace",
     "reflected rays marched through a few cube maps of distance",
     "Číž 2017",
-    &[CUBEMAP_TRACE_OPTIONS, CUBE_MAPS_OPTIONS],
+    &[CUBEMAP_TRACE_OPTIONS, MapOptions::OWN],
     Keyed {
         make: cubemap_trace::make,
         objection: cubemap_trace::objection,
@@ -50,32 +38,8 @@ pub(super) const CUBEMAP_TRACE: Technique = keyed(
     |_| UNRESOLVED,
 );
 
-pub(super) const RAY_TRACE: Technique = keyed(
-    "ray-trace",
-    "the control: the reference's rays on the GPU",
-    "control",
-    &[RAY_TRACE_OPTIONS],
-    Keyed {
-        make: ray_trace::make,
-        objection: |_, _| None,
-        properties: CONTROL,
-    },
-    |values| {
-        values.nth(RAY_TRACE_OPTIONS.len() - 1);
-        Properties {
-            is_control: StageOptions::read(values).gbuffer == Surface::Exact,
-            ..CONTROL
-        }
-    },
-);
-
 const UNRESOLVED: Properties = Properties {
     may_be_unresolved: true,
-    ..Properties::NONE
-};
-
-const CONTROL: Properties = Properties {
-    is_control: true,
     ..Properties::NONE
 };
 
@@ -110,39 +74,6 @@ const fn number(
     let values = Values::Number { default, range };
     OptionInfo { name, values, what }
 }
-
-/// Options of techniques that look into cube maps of the scene.
-const CUBE_MAPS_OPTIONS: &[OptionInfo] = &[
-    words(
-        "size",
-        &["256", "32", "64", "128", "512", "1024"],
-        "texels a side of a cube face",
-    ),
-    words(
-        "update",
-        &["static", "frame"],
-        "whether the maps are drawn once or in every frame",
-    ),
-];
-
-const RAY_TRACE_OPTIONS: &[OptionInfo] = &[
-    words(
-        "traversal",
-        &["shader", "hardware"],
-        "what goes through the hierarchy: a shader (obvhs's), or ray queries in hardware where the adapter has them (the driver's)",
-    ),
-    words(
-        "update",
-        &["static", "frame"],
-        "whether the hierarchy is built when something has moved or for every frame",
-    ),
-];
-
-const ENVIRONMENT_MAP_OPTIONS: &[OptionInfo] = &[words(
-    "placement",
-    &["center", "scene"],
-    "where the map is taken from: the mirror's centre, or the first of its `cubemaps` in the scene file",
-)];
 
 const CUBEMAP_TRACE_OPTIONS: &[OptionInfo] = &[
     whole("objects", 2, [1, 8], "cube maps of each mirror"),

@@ -4,7 +4,7 @@ use crate::error::ReflectError;
 use crate::gpu::{FLOAT4, Gpu, Recorder, Slot, group, layout, module, target, view};
 use crate::image_order::ImageOrder;
 use crate::image_order::per_pixel::PerPixel;
-use crate::image_order::ray_trace::RayTrace;
+use crate::image_order::ray_trace::Rays;
 use crate::stage::Stage;
 use crate::stage::variant::Variant;
 
@@ -17,7 +17,7 @@ pub(crate) struct Fill {
     pub position: wgpu::Texture,
     pass: PerPixel,
     group: wgpu::BindGroup,
-    rays: Option<RayTrace>,
+    rays: Option<Rays>,
 }
 
 impl Fill {
@@ -33,7 +33,7 @@ impl Fill {
             pass: PerPixel::new(gpu, stage, &module, &own_layout),
             group: group(gpu, &own_layout, &resources),
             rays: trace
-                .then(|| RayTrace::of_pixels(gpu, stage, &color))
+                .then(|| Rays::of_pixels(gpu, stage, &color))
                 .transpose()?,
             color,
             position,

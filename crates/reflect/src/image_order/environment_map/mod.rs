@@ -5,16 +5,93 @@ use catoptric_frame::Work;
 use catoptric_scene::{Mirror, Scene};
 use glam::DVec3;
 
-use super::ImageOrder;
-use super::cubemaps::{CubeMaps, Wanted, maps_layout};
+use super::cubemaps::{CubeMaps, MapOptions, Update, Wanted, maps_layout};
 use super::per_pixel::PerPixel;
+use super::{ImageOrder, Recipe};
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder, group, module};
-use crate::spec::Options;
+use crate::options::{options, words};
 use crate::stage::Stage;
 use crate::stage::variant::Variant;
+use crate::technique::{Info, Named};
 
-struct EnvironmentMap {
+words! {
+    /// Where a mirror's map is taken from.
+    pub(crate) enum Placement {
+        Center = "center",
+        /// The first of its places in the scene file.
+        Scene = "scene",
+    }
+}
+
+options! {
+    pub(crate) struct EnvironmentMap {
+        /// where the map is taken from: the mirror's centre, or the first of its `cubemaps` in the scene file
+        placement: Placement,
+        ..maps: MapOptions,
+    }
+}
+
+impl Named for EnvironmentMap {
+    const INFO: Info = Info {
+        name: "environment-map",
+        what: "one cube map from each mirror's centre, looked up in the reflected direction",
+        paper: "baseline",
+    };
+}
+
+impl Recipe for EnvironmentMap {
+    /// The scene file must have the places that are asked of it.
+    fn objection(&self, scene: &Scene) -> Option<String> {
+        let mut mirrors = scene.mirrors.iter();
+        let without = mirrors.find(|mirror| mirror.cubemaps.is_empty());
+        let mirror = without.filter(|_| self.placement == Placement::Scene)?;
+        Some(format!(
+            "placement=scene: mirror \"{}\" has no place for a map (key `cubemaps` in the scene file)",
+            mirror.name
+        ))
+    }
+
+    fn make(&self, gpu: &Gpu, stage: &Stage) -> Result<Box<dyn ImageOrder>, ReflectError> {
+        let module = module(gpu, "environment_map", &[])?;
+        let own_layout = maps_layout(gpu, "environment map", &[]);
+        let mut maps = Vec::new();
+        for mirror in &stage.world.scene.mirrors {
+            let wanted = Wanted {
+                size: self.maps.size.texels(),
+                centers: vec![self.center(mirror)],
+                traced: 1,
+                mirrors: false,
+            };
+            let map = CubeMaps::new(gpu, stage, wanted)?;
+            let [colors, distances] = map.views();
+            let own = group(gpu, &own_layout, &map.resources([&colors, &distances]));
+            maps.push((map, own));
+        }
+        let every_frame = self.maps.update == Update::Frame;
+        let technique = LookedUp {
+            every_frame,
+            follows: every_frame && self.placement == Placement::Center,
+            lookup: PerPixel::new(gpu, stage, &module, &own_layout),
+            maps,
+        };
+        gpu.run(|frame| technique.record_maps(frame, stage));
+        Ok(Box::new(technique))
+    }
+}
+
+impl EnvironmentMap {
+    /// Where a mirror's map is taken from, world space.
+    fn center(&self, mirror: &Mirror) -> DVec3 {
+        match self.placement {
+            Placement::Center => mirror.shape.center(),
+            Placement::Scene => mirror.cubemaps[0],
+        }
+    }
+}
+
+/// The technique, ready for a scene.
+struct LookedUp {
     /// The maps are drawn anew in every frame.
     every_frame: bool,
     /// Their centres go with the mirrors.
@@ -24,59 +101,7 @@ struct EnvironmentMap {
     maps: Vec<(CubeMaps, wgpu::BindGroup)>,
 }
 
-/// Where a mirror's map is taken from, world space.
-fn center(options: &Options, mirror: &Mirror) -> DVec3 {
-    match options.text("placement").as_str() {
-        "scene" => mirror.cubemaps[0],
-        _ => mirror.shape.center(),
-    }
-}
-
-/// Why the places in the scene file do not do.
-pub(crate) fn objection(options: &Options, scene: &Scene) -> Option<String> {
-    let without = scene
-        .mirrors
-        .iter()
-        .find(|mirror| mirror.cubemaps.is_empty());
-    let mirror = without.filter(|_| options.is("placement", "scene"))?;
-    Some(format!(
-        "placement=scene: mirror \"{}\" has no place for a map (key `cubemaps` in the scene file)",
-        mirror.name
-    ))
-}
-
-pub(crate) fn make(
-    gpu: &Gpu,
-    options: &Options,
-    stage: &Stage,
-) -> Result<Box<dyn ImageOrder>, ReflectError> {
-    let module = module(gpu, "environment_map", &[])?;
-    let own_layout = maps_layout(gpu, "environment map", &[]);
-    let mut maps = Vec::new();
-    for mirror in &stage.world.scene.mirrors {
-        let wanted = Wanted {
-            size: options.whole("size"),
-            centers: vec![center(options, mirror)],
-            traced: 1,
-            mirrors: false,
-        };
-        let map = CubeMaps::new(gpu, stage, wanted)?;
-        let [colors, distances] = map.views();
-        let own = group(gpu, &own_layout, &map.resources([&colors, &distances]));
-        maps.push((map, own));
-    }
-    let every_frame = options.is("update", "frame");
-    let technique = EnvironmentMap {
-        every_frame,
-        follows: every_frame && options.is("placement", "center"),
-        lookup: PerPixel::new(gpu, stage, &module, &own_layout),
-        maps,
-    };
-    gpu.run(|frame| technique.record_maps(frame, stage));
-    Ok(Box::new(technique))
-}
-
-impl EnvironmentMap {
+impl LookedUp {
     fn record_maps(&self, frame: &mut Recorder<'_>, stage: &Stage) {
         for (map, _) in &self.maps {
             map.record(frame, stage);
@@ -84,7 +109,7 @@ impl EnvironmentMap {
     }
 }
 
-impl ImageOrder for EnvironmentMap {
+impl ImageOrder for LookedUp {
     /// A mirror's own centre goes with it where the map is drawn in every frame; a place in the scene
     /// file stays.
     fn update(&mut self, gpu: &Gpu, stage: &Stage) -> Result<(), ReflectError> {

@@ -13,13 +13,13 @@ mod wide;
 
 use catoptric_frame::Work;
 
-use super::ImageOrder;
+use super::{ImageOrder, Recipe};
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder, Slot, compute, group, layout, module, storage_zeros, view};
-use crate::spec::Options;
+use crate::options::{options, words};
 use crate::stage::Stage;
 use crate::stage::variant::Variant;
-use crate::technique::Built;
+use crate::technique::{Built, Info, Named, Properties};
 
 use hardware::Hardware;
 use wide::Wide;
@@ -27,8 +27,69 @@ use wide::Wide;
 /// Side of a workgroup in pixels.
 const GROUP: u32 = 8;
 
+words! {
+    /// What goes through the hierarchy.
+    pub(crate) enum Traversal {
+        Shader = "shader",
+        /// Ray queries.
+        Hardware = "hardware",
+    }
+}
+
+words! {
+    /// When the hierarchy is built.
+    pub(crate) enum Update {
+        /// When something has moved.
+        Static = "static",
+        /// For every frame.
+        Frame = "frame",
+    }
+}
+
+options! {
+    pub(crate) struct RayTrace {
+        /// what goes through the hierarchy: a shader (obvhs's), or ray queries in hardware where the adapter has them (the driver's)
+        traversal: Traversal,
+        /// whether the hierarchy is built when something has moved or for every frame
+        update: Update,
+    }
+}
+
+impl Named for RayTrace {
+    const INFO: Info = Info {
+        name: "ray-trace",
+        what: "the control: the reference's rays on the GPU",
+        paper: "control",
+    };
+}
+
+impl Recipe for RayTrace {
+    fn properties(&self) -> Properties {
+        Properties {
+            is_control: true,
+            ..Properties::default()
+        }
+    }
+
+    fn make(&self, gpu: &Gpu, stage: &Stage) -> Result<Box<dyn ImageOrder>, ReflectError> {
+        let scene = &stage.world.scene;
+        let structure = match self.traversal {
+            Traversal::Shader => Structure::Wide(Wide::new(gpu, scene)?),
+            Traversal::Hardware if gpu.info().ray_queries => {
+                let structure = Hardware::new(gpu, scene);
+                gpu.run(|frame| structure.build(frame));
+                Structure::Hardware(Box::new(structure))
+            }
+            Traversal::Hardware => return Err(ReflectError::Adapter("offers no ray queries")),
+        };
+        let every_frame = self.update == Update::Frame;
+        let rays = Rays::new(gpu, stage, structure, every_frame, None)?;
+        Ok(Box::new(rays))
+    }
+}
+
 /// The pass `trace`, for all mirror pixels or for those that another technique leaves open.
-pub(crate) struct RayTrace {
+pub(crate) struct Rays {
     layout: wgpu::BindGroupLayout,
     trace: wgpu::ComputePipeline,
     counting: wgpu::ComputePipeline,
@@ -47,32 +108,7 @@ enum Structure {
     Hardware(Box<Hardware>),
 }
 
-pub(crate) fn make(
-    gpu: &Gpu,
-    options: &Options,
-    stage: &Stage,
-) -> Result<Box<dyn ImageOrder>, ReflectError> {
-    let structure = if options.is("traversal", "hardware") {
-        if !gpu.info().ray_queries {
-            return Err(ReflectError::Adapter("offers no ray queries"));
-        }
-        let structure = Hardware::new(gpu, &stage.world.scene);
-        gpu.run(|frame| structure.build(frame));
-        Structure::Hardware(Box::new(structure))
-    } else {
-        Structure::Wide(Wide::new(gpu, &stage.world.scene)?)
-    };
-    let every_frame = options.is("update", "frame");
-    Ok(Box::new(RayTrace::new(
-        gpu,
-        stage,
-        structure,
-        every_frame,
-        None,
-    )?))
-}
-
-impl RayTrace {
+impl Rays {
     /// Rays for those pixels alone where the image `left_open` has −1 in w.
     pub(crate) fn of_pixels(
         gpu: &Gpu,
@@ -195,7 +231,7 @@ fn bind(
     group(gpu, layout, &resources)
 }
 
-impl ImageOrder for RayTrace {
+impl ImageOrder for Rays {
     /// Builds the structure anew: any object may have moved.
     fn update(&mut self, gpu: &Gpu, stage: &Stage) -> Result<(), ReflectError> {
         self.rebuild(gpu, stage)
@@ -248,7 +284,7 @@ mod tests {
     use crate::testing::{gpu_or_skip, scene, stage};
 
     /// Object ids at the mirror's pixels.
-    fn ids(gpu: &Gpu, technique: &RayTrace, stage: &Stage) -> Vec<u32> {
+    fn ids(gpu: &Gpu, technique: &Rays, stage: &Stage) -> Vec<u32> {
         gpu.run(|frame| {
             stage.begin(frame, Variant::AllLayers);
             technique.record(frame, stage, Variant::AllLayers);
@@ -265,7 +301,7 @@ mod tests {
         let stage = stage(&gpu, &scene, [96, 72]);
         let wide = Wide::new(&gpu, &stage.world.scene).expect("fits the device");
         let structure = Structure::Wide(wide);
-        let technique = RayTrace::new(&gpu, &stage, structure, false, None).expect("links");
+        let technique = Rays::new(&gpu, &stage, structure, false, None).expect("links");
         let before = ids(&gpu, &technique, &stage);
         assert!(before.contains(&1), "the square is reflected");
         assert_eq!(before, ids(&gpu, &technique, &stage));

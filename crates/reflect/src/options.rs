@@ -143,6 +143,9 @@ pub(crate) trait Words: Sized + Copy + 'static {
     const WORDS: &'static [&'static str];
     /// What they stand for, in the same order.
     const ALL: &'static [Self];
+
+    /// The word that stands for it.
+    fn word(self) -> &'static str;
 }
 
 impl<T: Words> Field for T {
@@ -181,6 +184,12 @@ macro_rules! words {
         impl $crate::options::Words for $name {
             const WORDS: &'static [&'static str] = &[$($word),+];
             const ALL: &'static [Self] = &[$(Self::$variant),+];
+
+            fn word(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $word,)+
+                }
+            }
         }
     };
 }

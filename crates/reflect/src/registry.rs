@@ -1,7 +1,5 @@
 //! Every technique, a line each.
 
-mod options;
-
 use crate::options::{Options, Settled};
 use crate::spec::{self, Spec};
 use crate::stage::options::{SearchOptions, StageOptions};
@@ -26,7 +24,7 @@ static TECHNIQUES: &[Technique] = &[
     missing(Family::Refinement, "+exact", "ray-triangle test a fragment"),
     image_order::<image_order::environment_map::EnvironmentMap>(),
     image_order::<image_order::planar::Planar>(),
-    options::CUBEMAP_TRACE,
+    image_order::<image_order::cubemap_trace::CubemapTrace>(),
     image_order::<image_order::ray_trace::RayTrace>(),
 ];
 
@@ -42,7 +40,6 @@ enum Read {
     Search(fn(&mut Settled<'_>) -> search::Asked),
     Refinement(fn(&mut Settled<'_>) -> Box<dyn refine::Recipe>),
     ImageOrder(fn(&mut Settled<'_>) -> image_order::Asked),
-    Keyed(image_order::Keyed),
     /// It is not built yet.
     Missing,
 }
@@ -133,9 +130,6 @@ pub(crate) fn asked(spec: &Spec) -> Asked {
             Asked::ObjectOrder(search(values), refinement(&mut options.values()))
         }
         (Read::ImageOrder(technique), None) => Asked::ImageOrder(technique(values)),
-        (Read::Keyed(keyed), None) => {
-            Asked::ImageOrder(image_order::Asked::keyed(&spec.options, keyed))
-        }
         (other, _) => unreachable!("a parsed technique is never {other:?}"),
     }
 }

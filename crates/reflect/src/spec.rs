@@ -228,41 +228,9 @@ impl Options {
         self.info.options().any(|option| option.name == key)
     }
 
-    #[cfg(test)]
-    pub(crate) fn info(&self) -> &'static TechniqueInfo {
-        self.info
-    }
-
     /// The values, in the order in which the options are declared.
     pub(crate) fn values(&self) -> Settled<'_> {
         self.values.iter().copied()
-    }
-
-    /// Value of an option, as it is written.
-    ///
-    /// # Panics
-    /// If the technique has no such option: a bug in the caller.
-    pub(crate) fn text(&self, key: &str) -> String {
-        let mut known = self.info.options().zip(self.values());
-        let found = known.find(|(option, _)| option.name == key);
-        let (option, value) =
-            found.unwrap_or_else(|| panic!("{} has no option {key}", self.info.name));
-        option.text(value)
-    }
-
-    /// Whether an option has this value.
-    pub(crate) fn is(&self, key: &str, value: &str) -> bool {
-        self.text(key) == value
-    }
-
-    /// Value of an option that is a whole number, as a word or not.
-    pub(crate) fn whole(&self, key: &str) -> u32 {
-        self.text(key).parse().expect("settled as a whole number")
-    }
-
-    /// Value of an option that is a number.
-    pub(crate) fn number(&self, key: &str) -> f64 {
-        self.text(key).parse().expect("settled as a number")
     }
 
     /// The options as the technique `T` reads them, and the values of those of its family; `None` if

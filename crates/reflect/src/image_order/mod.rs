@@ -2,7 +2,7 @@
 //! as its shader: mirror G-buffer → technique → composite.
 
 pub(crate) mod cubemap_trace;
-pub(crate) mod cubemaps;
+mod cubemaps;
 pub(crate) mod environment_map;
 mod per_pixel;
 pub(crate) mod planar;
@@ -14,8 +14,7 @@ use catoptric_scene::Scene;
 use crate::diagnostics::{Answer, Question};
 use crate::error::ReflectError;
 use crate::gpu::{Begin, Gpu, Recorder};
-use crate::options::{self, Settled};
-use crate::spec::Options;
+use crate::options::{Options, Settled};
 use crate::stage::Stage;
 use crate::stage::options::{StageOptions, Surface};
 use crate::stage::variant::Variant;
@@ -81,20 +80,10 @@ pub(crate) struct Asked {
 
 impl Asked {
     /// The technique `T`.
-    pub(crate) fn read<T: options::Options + Recipe + 'static>(values: &mut Settled<'_>) -> Self {
+    pub(crate) fn read<T: Options + Recipe + 'static>(values: &mut Settled<'_>) -> Self {
         Self {
             recipe: Box::new(T::read(values)),
-            common: options::Options::read(values),
-        }
-    }
-
-    /// A technique that reads its options by key.
-    pub(crate) fn keyed(options: &Options, keyed: Keyed) -> Self {
-        let mut values = options.values();
-        values.nth(options.values().len() - 3);
-        Self {
-            recipe: Box::new((options.clone(), keyed)),
-            common: options::Options::read(&mut values),
+            common: Options::read(values),
         }
     }
 
@@ -111,28 +100,6 @@ impl Asked {
             is_control: properties.is_control && self.common.gbuffer == Surface::Exact,
             ..properties
         }
-    }
-}
-
-/// A technique that reads its options by key.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Keyed {
-    pub make: fn(&Gpu, &Options, &Stage) -> Result<Box<dyn ImageOrder>, ReflectError>,
-    pub objection: fn(&Options, &Scene) -> Option<String>,
-    pub properties: Properties,
-}
-
-impl Recipe for (Options, Keyed) {
-    fn objection(&self, scene: &Scene) -> Option<String> {
-        (self.1.objection)(&self.0, scene)
-    }
-
-    fn properties(&self) -> Properties {
-        self.1.properties
-    }
-
-    fn make(&self, gpu: &Gpu, stage: &Stage) -> Result<Box<dyn ImageOrder>, ReflectError> {
-        (self.1.make)(gpu, &self.0, stage)
     }
 }
 

@@ -2,14 +2,13 @@
 //! unfinished. The lanes of a ray agree by a mask, put together by the ballots of subgroups where the
 //! adapter has these, else in workgroup memory.
 
+use super::march;
+use super::options::{Agreement, CubemapTrace};
 use crate::error::ReflectError;
 use crate::gpu::{Begin, Gpu, Recorder, Slot, compute, group, layout, module, storage_zeros, view};
 use crate::image_order::draw_reflections;
-use crate::spec::Options;
 use crate::stage::Stage;
 use crate::stage::variant::Variant;
-
-use super::march;
 
 /// Side of the listing pass's workgroups, in pixels.
 const GROUP: u32 = 8;
@@ -31,7 +30,7 @@ impl Lanes {
     /// `own_layout`: group 3; `effort`: as `march` draws it.
     pub(crate) fn new(
         gpu: &Gpu,
-        options: &Options,
+        options: &CubemapTrace,
         stage: &Stage,
         own_layout: &wgpu::BindGroupLayout,
         effort: &wgpu::Texture,
@@ -53,7 +52,7 @@ impl Lanes {
             compute(gpu, &pixels, entry, &layouts)
         };
         let mut features = march::features(options);
-        let ballot = options.is("agree", "ballot");
+        let ballot = options.agree == Agreement::Ballot;
         let agreement = match gpu.info().subgroups.filter(|_| ballot) {
             Some([least, most]) => {
                 features.push("ballot");

@@ -2,10 +2,10 @@
 
 use catoptric_frame::{Image, Traced};
 
+use super::options::{Accept, Criterion, CubemapTrace, Restart, Sampling, Skipping, Unresolved};
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder, module};
 use crate::image_order::per_pixel::{Pass, PerPixel};
-use crate::spec::Options;
 use crate::stage::Stage;
 use crate::stage::variant::Variant;
 
@@ -19,40 +19,37 @@ pub(crate) struct March {
 pub(crate) struct Effort(Pass);
 
 /// What options turn on in the shader.
-pub(crate) fn features(options: &Options) -> Vec<&'static str> {
-    let mut features = Vec::new();
-    let mut on = |feature, condition| {
-        if condition {
-            features.push(feature);
-        }
-    };
-    on("distance", options.is("criterion", "distance"));
-    on("both", options.is("criterion", "both"));
-    on("turning", options.is("criterion", "switch"));
-    on("angle", options.is("sampling", "angle"));
-    on("texel", options.is("sampling", "texel"));
-    on("pyramid", !options.is("pyramid", "off"));
-    on("sound", options.is("pyramid", "sound"));
-    let signs = !options.is("criterion", "distance");
-    on("continuous", signs && options.is("accept", "continuous"));
-    on("bounce", options.whole("bounces") > 1);
-    on("clear", options.is("restart", "clear"));
-    on("best", options.is("unresolved", "best"));
-    on("background", options.is("unresolved", "background"));
-    on("environment", options.is("unresolved", "environment"));
-    let later = ["neighbours", "trace"];
-    on(
-        "later",
-        later.contains(&options.text("unresolved").as_str()),
-    );
-    features
+pub(crate) fn features(options: &CubemapTrace) -> Vec<&'static str> {
+    use {Criterion as C, Sampling as S, Skipping as P, Unresolved as U};
+    let (criterion, sampling, unresolved) =
+        (options.criterion, options.sampling, options.unresolved);
+    let continuous = criterion != C::Distance && options.accept == Accept::Continuous;
+    let features = [
+        (criterion == C::Distance, "distance"),
+        (criterion == C::Both, "both"),
+        (criterion == C::Switch, "turning"),
+        (sampling == S::Angle, "angle"),
+        (sampling == S::Texel, "texel"),
+        (options.pyramid != P::Off, "pyramid"),
+        (options.pyramid == P::Sound, "sound"),
+        (continuous, "continuous"),
+        (options.shows_mirrors(), "bounce"),
+        (options.restart == Restart::Clear, "clear"),
+        (unresolved == U::Best, "best"),
+        (unresolved == U::Background, "background"),
+        (unresolved == U::Environment, "environment"),
+        (matches!(unresolved, U::Neighbours | U::Trace), "later"),
+    ];
+    let features = features.into_iter();
+    let features = features.filter_map(|(on, feature)| on.then_some(feature));
+    features.collect()
 }
 
 impl March {
     /// `own_layout`: group 3.
     pub(crate) fn new(
         gpu: &Gpu,
-        options: &Options,
+        options: &CubemapTrace,
         stage: &Stage,
         own_layout: &wgpu::BindGroupLayout,
     ) -> Result<Self, ReflectError> {

@@ -7,7 +7,9 @@
 
 mod fill;
 mod lanes;
+mod maps;
 mod march;
+mod options;
 mod placement;
 mod pyramid;
 #[cfg(test)]
@@ -17,44 +19,52 @@ mod variants;
 
 use catoptric_frame::{Image, Traced, Work};
 use catoptric_scene::Scene;
-use encase::ShaderType;
 use glam::DVec3;
 
 use self::fill::Fill;
 use self::lanes::Lanes;
+use self::maps::{MORE, MirrorMaps, TraceUniform};
 use self::march::March;
-use self::pyramid::Pyramid;
-use super::ImageOrder;
-use super::cubemaps::{CubeMaps, Wanted, array_view, maps_layout};
+pub(crate) use self::options::CubemapTrace;
+use self::options::{ShaderStage, Skipping, Unresolved};
+use super::cubemaps::{Update, Wanted, maps_layout};
+use super::{ImageOrder, Recipe};
 use crate::diagnostics::{Answer, Question};
 use crate::error::ReflectError;
-use crate::gpu::{FLOAT4, Gpu, Recorder, Slot, group, target, uniform, view};
-use crate::spec::Options;
+use crate::gpu::{FLOAT4, Gpu, Recorder, target, view};
 use crate::stage::Stage;
-use crate::stage::extent::diagonal;
 use crate::stage::variant::Variant;
+use crate::technique::{Info, Named, Properties};
 
-/// Twin of `Trace` in `shared/rays.wesl`.
-#[derive(Clone, Copy, Debug, ShaderType)]
-pub(crate) struct TraceUniform {
-    pub length: f32,
-    pub step: f32,
-    pub limit: f32,
-    pub bias: f32,
-    pub coarsest: u32,
-    pub finest: u32,
-    pub bounces: u32,
+impl Named for CubemapTrace {
+    const INFO: Info = Info {
+        name: "cubemap-trace",
+        what: "reflected rays marched through a few cube maps of distance",
+        paper: "Číž 2017",
+    };
 }
 
-/// The maps of one mirror and what reads them.
-struct MirrorMaps {
-    maps: CubeMaps,
-    pyramid: Option<Pyramid>,
-    /// Group 3 of the passes that trace.
-    group: wgpu::BindGroup,
+impl Recipe for CubemapTrace {
+    fn objection(&self, scene: &Scene) -> Option<String> {
+        CubemapTrace::objection(self).or_else(|| placement::objection(self, scene))
+    }
+
+    fn properties(&self) -> Properties {
+        Properties {
+            may_be_unresolved: true,
+            ..Properties::default()
+        }
+    }
+
+    fn make(&self, gpu: &Gpu, stage: &Stage) -> Result<Box<dyn ImageOrder>, ReflectError> {
+        let technique = Tracing::new(gpu, self, stage)?;
+        gpu.run(|frame| technique.record_maps(frame, stage));
+        Ok(Box::new(technique))
+    }
 }
 
-struct CubemapTrace {
+/// The technique, ready for a scene.
+struct Tracing {
     /// The maps are drawn anew in every frame.
     every_frame: bool,
     mirrors: Vec<MirrorMaps>,
@@ -70,135 +80,53 @@ enum Tracer {
     Compute(Lanes),
 }
 
-/// Slots of group 3 behind those of the maps: `Trace`, pyramid, normals.
-const MORE: &[Slot] = &[Slot::Uniform, Slot::Textures, Slot::Textures];
-
-/// Why options do not go together.
-pub(crate) fn objection(options: &Options, scene: &Scene) -> Option<String> {
-    let compute = options.is("stage", "compute");
-    let needs = |key: &str, values: &[&str]| {
-        let value = options.text(key);
-        (compute && !values.contains(&value.as_str())).then(|| {
-            format!(
-                "stage=compute has no {key}={value}, only {}",
-                values.join(", ")
-            )
-        })
-    };
-    needs("criterion", &["analytic", "distance"])
-        .or_else(|| needs("sampling", &["step", "texel"]))
-        .or_else(|| needs("pyramid", &["off", "sound"]))
-        .or_else(|| needs("bounces", &["1"]))
-        .or_else(|| needs("unresolved", &["mark", "background"]))
-        .or_else(|| placement::objection(options, scene))
-}
-
-fn trace_uniform(options: &Options, scene: &Scene) -> TraceUniform {
-    let length = options.number("length") as f32 * diagonal(scene);
-    let step = options.number("step") as f32;
-    let levels = options.whole("size").ilog2();
-    let finest = options.whole("to").min(levels - 1);
-    TraceUniform {
-        length,
-        step,
-        limit: options.number("limit") as f32 * step * length,
-        bias: options.number("bias") as f32,
-        coarsest: options.whole("from").min(finest),
-        finest,
-        bounces: options.whole("bounces"),
-    }
-}
-
-pub(crate) fn make(
-    gpu: &Gpu,
-    options: &Options,
-    stage: &Stage,
-) -> Result<Box<dyn ImageOrder>, ReflectError> {
-    let own_layout = maps_layout(gpu, "cubemap trace", MORE);
-    let pyramid = !options.is("pyramid", "off") || options.is("stage", "compute");
-    let trace = trace_uniform(options, &stage.world.scene);
-    let mut mirrors = Vec::new();
-    let places = placement::places(gpu, options, stage)?;
-    for (mirror, mut centers) in stage.world.scene.mirrors.iter().zip(places) {
-        let traced = centers.len();
-        if options.is("unresolved", "environment") {
-            centers.push(mirror.shape.center());
-        }
-        let wanted = Wanted {
-            size: options.whole("size"),
-            centers,
-            traced,
-            mirrors: options.whole("bounces") > 1,
-        };
-        let maps = MirrorMaps::new(gpu, pyramid, &trace, stage, wanted, &own_layout)?;
-        mirrors.push(maps);
-    }
-    let trace_left = options.is("unresolved", "trace");
-    let fill = (trace_left || options.is("unresolved", "neighbours"))
-        .then(|| Fill::new(gpu, stage, trace_left));
-    let effort = target(gpu, "effort", stage.world.size, FLOAT4);
-    let tracer = if options.is("stage", "compute") {
-        Tracer::Compute(Lanes::new(gpu, options, stage, &own_layout, &effort)?)
-    } else {
-        Tracer::Fragment(March::new(gpu, options, stage, &own_layout)?)
-    };
-    let technique = CubemapTrace {
-        every_frame: options.is("update", "frame"),
-        tracer,
-        fill: fill.transpose()?,
-        effort,
-        mirrors,
-    };
-    gpu.run(|frame| technique.record_maps(frame, stage));
-    Ok(Box::new(technique))
-}
-
 /// A place as it may stand in a scene file.
 fn written(place: &DVec3) -> String {
     format!("[{:.4}, {:.4}, {:.4}]", place.x, place.y, place.z)
 }
 
-impl MirrorMaps {
-    fn new(
-        gpu: &Gpu,
-        pyramid: bool,
-        trace: &TraceUniform,
-        stage: &Stage,
-        wanted: Wanted,
-        own_layout: &wgpu::BindGroupLayout,
-    ) -> Result<Self, ReflectError> {
-        let maps = CubeMaps::new(gpu, stage, wanted)?;
-        let pyramid = pyramid.then(|| Pyramid::new(gpu, &maps));
-        let pyramid = pyramid.transpose()?;
-        let [colors, distances] = maps.views();
-        // Where there is no pyramid or normal the shader does not look; some texture must be bound.
-        let range = pyramid.as_ref().map_or(&maps.distances, |it| &it.texture);
-        let range = array_view(range);
-        let normals = array_view(maps.normals.as_ref().unwrap_or(&maps.distances));
-        let trace = uniform(gpu, trace);
-        let mut resources = maps.resources([&colors, &distances]).to_vec();
-        resources.extend([
-            trace.as_entire_binding(),
-            wgpu::BindingResource::TextureView(&range),
-            wgpu::BindingResource::TextureView(&normals),
-        ]);
-        let group = group(gpu, own_layout, &resources);
+impl Tracing {
+    fn new(gpu: &Gpu, options: &CubemapTrace, stage: &Stage) -> Result<Self, ReflectError> {
+        let own_layout = maps_layout(gpu, "cubemap trace", MORE);
+        let compute = options.stage == ShaderStage::Compute;
+        let pyramid = compute || options.pyramid != Skipping::Off;
+        let trace = TraceUniform::new(options, &stage.world.scene);
+        let mut mirrors = Vec::new();
+        let places = placement::places(gpu, options, stage)?;
+        for (mirror, mut centers) in stage.world.scene.mirrors.iter().zip(places) {
+            let traced = centers.len();
+            if options.unresolved == Unresolved::Environment {
+                centers.push(mirror.shape.center());
+            }
+            let wanted = Wanted {
+                size: options.maps.size.texels(),
+                centers,
+                traced,
+                mirrors: options.shows_mirrors(),
+            };
+            let maps = MirrorMaps::new(gpu, pyramid, &trace, stage, wanted, &own_layout)?;
+            mirrors.push(maps);
+        }
+        let fill = match options.unresolved {
+            Unresolved::Trace => Some(Fill::new(gpu, stage, true)?),
+            Unresolved::Neighbours => Some(Fill::new(gpu, stage, false)?),
+            _ => None,
+        };
+        let effort = target(gpu, "effort", stage.world.size, FLOAT4);
+        let tracer = if compute {
+            Tracer::Compute(Lanes::new(gpu, options, stage, &own_layout, &effort)?)
+        } else {
+            Tracer::Fragment(March::new(gpu, options, stage, &own_layout)?)
+        };
         Ok(Self {
-            maps,
-            pyramid,
-            group,
+            every_frame: options.maps.update == Update::Frame,
+            tracer,
+            fill,
+            effort,
+            mirrors,
         })
     }
 
-    fn record(&self, frame: &mut Recorder<'_>, stage: &Stage) {
-        self.maps.record(frame, stage);
-        if let Some(pyramid) = &self.pyramid {
-            pyramid.record(frame);
-        }
-    }
-}
-
-impl CubemapTrace {
     fn has_pyramid(&self) -> bool {
         self.mirrors.iter().any(|mirror| mirror.pyramid.is_some())
     }
@@ -219,7 +147,7 @@ impl CubemapTrace {
     }
 }
 
-impl ImageOrder for CubemapTrace {
+impl ImageOrder for Tracing {
     /// Maps stay where they were placed; drawn in every frame, they show what moved.
     fn update(&mut self, gpu: &Gpu, stage: &Stage) -> Result<(), ReflectError> {
         if self.every_frame {

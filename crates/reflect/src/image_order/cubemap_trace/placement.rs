@@ -10,12 +10,12 @@ use catoptric_scene::shape::Facing;
 use catoptric_scene::{Mesh, Mirror, Random, Scene};
 use glam::DVec3;
 
+use super::maps::{MORE, MirrorMaps, TraceUniform};
 use super::march::{self, Effort};
-use super::{MORE, MirrorMaps, TraceUniform};
+use super::options::{Accept, CubemapTrace, Placement};
 use crate::error::ReflectError;
 use crate::gpu::{FLOAT4, Gpu, target, view};
 use crate::image_order::cubemaps::{Wanted, maps_layout};
-use crate::spec::Options;
 use crate::stage::Stage;
 use crate::stage::variant::Variant;
 
@@ -33,23 +33,23 @@ const SEED: u64 = 2017;
 /// World-space centres of the maps of each mirror, in the order in which they are traced.
 pub(crate) fn places(
     gpu: &Gpu,
-    options: &Options,
+    options: &CubemapTrace,
     stage: &Stage,
 ) -> Result<Vec<Vec<DVec3>>, ReflectError> {
-    let wanted = options.whole("objects") as usize;
-    let outside = options.whole("bounces") > 1;
+    let wanted = options.objects as usize;
+    let outside = options.shows_mirrors();
     let scene = &stage.world.scene;
-    if options.is("placement", "scene") {
-        let by_mirror = scene.mirrors.iter();
-        return Ok(by_mirror.map(|m| m.cubemaps[..wanted].to_vec()).collect());
-    }
+    let count = match options.placement {
+        Placement::Auto => CANDIDATES.max(wanted),
+        Placement::Random => wanted,
+        Placement::Scene => {
+            let by_mirror = scene.mirrors.iter();
+            return Ok(by_mirror.map(|m| m.cubemaps[..wanted].to_vec()).collect());
+        }
+    };
     let mut rng = Random::new(SEED);
     let mut candidates: Vec<Vec<DVec3>> = Vec::new();
     for mirror in &scene.mirrors {
-        let count = match options.text("placement").as_str() {
-            "random" => wanted,
-            _ => CANDIDATES.max(wanted),
-        };
         candidates.push(self::candidates(scene, mirror, outside, count, &mut rng));
     }
     let covered = Trial::new(gpu, options, stage)?.covered(gpu, &candidates)?;
@@ -61,12 +61,12 @@ pub(crate) fn places(
 }
 
 /// Why the places in the scene file do not do.
-pub(crate) fn objection(options: &Options, scene: &Scene) -> Option<String> {
-    if !options.is("placement", "scene") {
+pub(crate) fn objection(options: &CubemapTrace, scene: &Scene) -> Option<String> {
+    if options.placement != Placement::Scene {
         return None;
     }
-    let wanted = options.whole("objects") as usize;
-    let outside = options.whole("bounces") > 1;
+    let wanted = options.objects as usize;
+    let outside = options.shows_mirrors();
     scene.mirrors.iter().find_map(|mirror| {
         let (name, listed) = (&mirror.name, mirror.cubemaps.len());
         if listed < wanted {
@@ -80,7 +80,7 @@ pub(crate) fn objection(options: &Options, scene: &Scene) -> Option<String> {
         Some(format!(
             "placement=scene: with bounces={} the maps show the mirrors, but the one at {center} lies \
              inside mirror \"{name}\"",
-            options.whole("bounces")
+            options.bounces
         ))
     })
 }
@@ -187,14 +187,14 @@ fn greedy(centers: &[DVec3], covered: &[Vec<bool>], wanted: usize) -> Vec<usize>
 
 /// A small picture of the scene in which candidates are tried.
 struct Trial<'a> {
-    options: &'a Options,
+    options: &'a CubemapTrace,
     stage: Stage,
     own_layout: wgpu::BindGroupLayout,
     rays: Effort,
 }
 
 impl<'a> Trial<'a> {
-    fn new(gpu: &Gpu, options: &'a Options, stage: &Stage) -> Result<Self, ReflectError> {
+    fn new(gpu: &Gpu, options: &'a CubemapTrace, stage: &Stage) -> Result<Self, ReflectError> {
         let [width, height] = stage.world.size;
         let scale = f64::from(TRIAL_PIXELS) / f64::from(width.max(height));
         let size = [width, height].map(|side| ((f64::from(side) * scale) as u32).max(1));
@@ -202,10 +202,10 @@ impl<'a> Trial<'a> {
         let own_layout = maps_layout(gpu, "trial", MORE);
         // Where any sign change counts, the first one must be a certain one.
         let mut features = vec!["continuous"];
-        if options.is("accept", "any") {
+        if options.accept == Accept::Any {
             features.push("strict");
         }
-        if options.whole("bounces") > 1 {
+        if options.shows_mirrors() {
             features.push("bounce");
         }
         let rays = Effort::new(gpu, &features, &stage, &own_layout)?;
@@ -226,13 +226,13 @@ impl<'a> Trial<'a> {
     ) -> Result<Vec<Vec<Vec<bool>>>, ReflectError> {
         let trace = TraceUniform {
             step: TRIAL_STEP,
-            ..super::trace_uniform(self.options, &self.stage.world.scene)
+            ..TraceUniform::new(self.options, &self.stage.world.scene)
         };
         let wanted = |center: DVec3| Wanted {
             size: TRIAL_TEXELS,
             centers: vec![center],
             traced: 1,
-            mirrors: self.options.whole("bounces") > 1,
+            mirrors: self.options.shows_mirrors(),
         };
         let effort = target(gpu, "trial", self.stage.world.size, FLOAT4);
         let mut covered = vec![Vec::new(); candidates.len()];

@@ -3,11 +3,12 @@
 use catoptric_frame::{Frame, Status, Traced};
 use catoptric_scene::Scene;
 
-use super::{MORE, MirrorMaps, trace_uniform};
+use super::maps::{MORE, MirrorMaps, TraceUniform};
+use super::options::CubemapTrace;
 use crate::gpu::Gpu;
 use crate::image_order::cubemaps::{FACES, Wanted, maps_layout};
 use crate::testing::{gpu_or_skip, scene, stage};
-use crate::{Answer, Output, Question, parse};
+use crate::{Answer, Output, Question, Spec, parse};
 
 const SIZE: [u32; 2] = [80, 60];
 
@@ -30,6 +31,11 @@ fn traced(gpu: &Gpu, scene: &Scene, technique: &str) -> (Output, Traced) {
         Ok(Some(Answer::Traced(traced))) => (output, traced),
         other => panic!("rays are followed: {other:?}"),
     }
+}
+
+fn options(spec: &Spec) -> CubemapTrace {
+    let (options, _) = spec.options.of().expect("its own options");
+    options
 }
 
 /// Share of the mirror pixels that have the same state and id in both.
@@ -158,7 +164,7 @@ fn maps_stand_where_the_scene_says() {
     scene.mirrors[0].cubemaps = vec![above, center];
     assert_eq!(reason(&scene, &spec), "");
     let stage = stage(&gpu, &scene, SIZE);
-    let places = super::placement::places(&gpu, &spec.options, &stage).expect("fits the device");
+    let places = super::placement::places(&gpu, &options(&spec), &stage).expect("fits the device");
     assert_eq!(places, [[above, center]]);
     // Where the maps show the mirror, they must see it from outside.
     let spec = parse("cubemap-trace(bounces=2,placement=scene)").expect("a technique");
@@ -256,7 +262,7 @@ fn a_pixel_that_no_map_resolves_is_filled() {
 fn the_pyramid_is_that_of_the_cpu() {
     let Some(gpu) = gpu_or_skip() else { return };
     let scene = scene("sphere-objects-1k");
-    let options = parse("cubemap-trace").expect("a technique").options;
+    let options = options(&parse("cubemap-trace").expect("a technique"));
     let stage = stage(&gpu, &scene, SIZE);
     let wanted = Wanted {
         size: 32,
@@ -264,7 +270,7 @@ fn the_pyramid_is_that_of_the_cpu() {
         traced: 1,
         mirrors: false,
     };
-    let trace = trace_uniform(&options, &scene);
+    let trace = TraceUniform::new(&options, &scene);
     let layout = maps_layout(&gpu, "test", MORE);
     let maps = MirrorMaps::new(&gpu, true, &trace, &stage, wanted, &layout);
     let maps = maps.expect("fits the device");

@@ -6,7 +6,9 @@ use std::collections::BTreeSet;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
 use super::march;
+use super::options::CubemapTrace;
 use crate::gpu::shaders::tests::parsed;
+use crate::options::Options;
 use crate::{Values, parse};
 
 /// Options that the shaders know, beside those that are one of some words.
@@ -17,8 +19,8 @@ const DIFFERENT: usize = 3;
 
 /// `key=value` of every word but the default, a list for each option.
 fn choices() -> Vec<Vec<String>> {
-    let spec = parse("cubemap-trace").expect("a technique");
-    let words = spec.options().info().options().filter_map(|option| {
+    let options = CubemapTrace::TABLE.iter().copied().flatten();
+    let words = options.filter_map(|option| {
         let Values::Words(words) = option.values else {
             return None;
         };
@@ -55,7 +57,8 @@ fn what_three_options_link_is_valid() {
         .into_iter()
         .map(|chosen| {
             let spec = parse(&format!("cubemap-trace({})", chosen.join(","))).expect("a technique");
-            march::features(spec.options())
+            let (options, _) = spec.options().of().expect("its own options");
+            march::features(&options)
         })
         .collect();
     assert!(sets.len() > 100, "{}", sets.len());

@@ -1,0 +1,217 @@
+//! The options, and which of them go together.
+
+use std::fmt::Display;
+
+use crate::image_order::cubemaps::MapOptions;
+use crate::options::{Words, options, words};
+
+words! {
+    /// Where a mirror's maps are taken from.
+    pub(crate) enum Placement {
+        /// Of random candidates those that resolve the most pixels.
+        Auto = "auto",
+        /// Random candidates, no more than are needed.
+        Random = "random",
+        /// Its places in the scene file.
+        Scene = "scene",
+    }
+}
+
+words! {
+    /// What counts as a hit. Δ is a sample's distance from the map's centre less the distance that
+    /// the map holds in its direction.
+    pub(crate) enum Criterion {
+        /// A sign change of Δ.
+        Analytic = "analytic",
+        /// A small Δ.
+        Distance = "distance",
+        /// A small Δ, or else the first sign change.
+        Both = "both",
+        /// Either, by how much the ray turns as seen from the centre.
+        Switch = "switch",
+    }
+}
+
+words! {
+    /// Which sign changes of Δ count.
+    pub(crate) enum Accept {
+        /// Where the map is continuous, of a map that hides nothing before them if there is one.
+        Continuous = "continuous",
+        Any = "any",
+    }
+}
+
+words! {
+    /// Where a ray is looked at.
+    pub(crate) enum Sampling {
+        /// At even steps.
+        Step = "step",
+        /// At even angles, seen from the map's centre.
+        Angle = "angle",
+        /// Once in each texel.
+        Texel = "texel",
+    }
+}
+
+words! {
+    /// How cells of the pyramid are skipped.
+    pub(crate) enum Skipping {
+        Off = "off",
+        /// By the ray's distances at the cell's ends.
+        Published = "published",
+        /// By the distances of the ray's nearest and farthest point in the cell.
+        Sound = "sound",
+    }
+}
+
+words! {
+    /// What follows the rays.
+    pub(crate) enum ShaderStage {
+        /// A fragment a ray.
+        Fragment = "fragment",
+        /// 32 lanes a ray.
+        Compute = "compute",
+    }
+}
+
+words! {
+    /// How the lanes of a ray agree.
+    pub(crate) enum Agreement {
+        /// By ballots of subgroups, where the adapter has these.
+        Ballot = "ballot",
+        /// Lane by lane in workgroup memory.
+        Memory = "memory",
+    }
+}
+
+words! {
+    /// How a ray gets off the mirror that it starts on.
+    pub(crate) enum Restart {
+        /// By the bias.
+        Bias = "bias",
+        /// No hit counts before a sample that is clear of the surface.
+        Clear = "clear",
+    }
+}
+
+words! {
+    /// What a pixel shows that no map resolves.
+    pub(crate) enum Unresolved {
+        /// That it is unresolved.
+        Mark = "mark",
+        /// What a map from the mirror's centre holds in the reflected direction.
+        Environment = "environment",
+        Background = "background",
+        /// What its resolved neighbours show.
+        Neighbours = "neighbours",
+        /// The sample with the smallest Δ.
+        Best = "best",
+        /// What the ray tracer finds.
+        Trace = "trace",
+    }
+}
+
+options! {
+    pub(crate) struct CubemapTrace {
+        /// cube maps of each mirror
+        objects: u32 = 2 in 1..=8,
+        /// where the maps are taken from: of random candidates those that resolve the most pixels, or just as many as are needed, or the mirror's `cubemaps` in the scene file
+        placement: Placement,
+        /// what counts as a hit: a sign change of the distance to the map, a small one, a small one or else the first sign change, or either by how much the ray turns
+        criterion: Criterion,
+        /// which sign changes count: those where the map is continuous, of a map that hides nothing before them if there is one (ours), or any, as published
+        accept: Accept,
+        /// where a ray is looked at: at even steps, at even angles, or once in each texel
+        sampling: Sampling,
+        /// skipping by least and greatest distances: none, by those at a cell's ends, or by the ray's nearest point
+        pyramid: Skipping,
+        /// one fragment a ray, or 32 lanes a ray that test the cells of a level at once (and thereby each texel once)
+        stage: ShaderStage,
+        /// how the lanes of a ray agree (stage=compute): by the ballots of subgroups, where the adapter has these, or lane by lane in workgroup memory
+        agree: Agreement,
+        /// length of a ray, in diagonals of the scene
+        length: f64 = 2.0 in 0.01..=100.0,
+        /// step, as a share of the ray's length (or of its angle)
+        step: f64 = 0.001 in 0.000_02..=0.5,
+        /// largest distance that counts as a hit, in steps (criterion=distance)
+        limit: f64 = 1.5 in 0.0..=1000.0,
+        /// coarsest level of the pyramid; level k has 2^k cells a side
+        from: u32 = 2 in 0..=10,
+        /// finest level of the pyramid
+        to: u32 = 6 in 0..=10,
+        /// rays followed from a pixel; more than one shows mirrors in mirrors
+        bounces: u32 = 1 in 1..=16,
+        /// share of a second ray's length at which it starts (bounces), 0: by the width of a texel, for all rays
+        bias: f64 = 0.0 in 0.0..=0.5,
+        /// how a ray gets off the mirror (bounces): by the bias, or no hit counts before a sample that is clear of the surface
+        restart: Restart,
+        /// what a pixel shows that no map resolves
+        unresolved: Unresolved,
+        ..maps: MapOptions,
+    }
+}
+
+impl CubemapTrace {
+    /// Rays are followed from mirror to mirror: the maps show the mirrors.
+    pub(crate) fn shows_mirrors(&self) -> bool {
+        self.bounces > 1
+    }
+
+    /// Why compute shaders cannot follow rays so.
+    pub(crate) fn objection(&self) -> Option<String> {
+        use {Criterion as C, Sampling as S, Skipping as P, Unresolved as U};
+        if self.stage == ShaderStage::Fragment {
+            return None;
+        }
+        unless("criterion", self.criterion, &[C::Analytic, C::Distance])
+            .or_else(|| unless("sampling", self.sampling, &[S::Step, S::Texel]))
+            .or_else(|| unless("pyramid", self.pyramid, &[P::Off, P::Sound]))
+            .or_else(|| (self.bounces > 1).then(|| lacks("bounces", self.bounces, 1)))
+            .or_else(|| unless("unresolved", self.unresolved, &[U::Mark, U::Background]))
+    }
+}
+
+/// That compute shaders lack the value of an option, unless it is one that they have.
+fn unless<T: Words + PartialEq>(option: &str, value: T, have: &[T]) -> Option<String> {
+    let only: Vec<_> = have.iter().map(|value| value.word()).collect();
+    let lacks = || lacks(option, value.word(), only.join(", "));
+    (!have.contains(&value)).then(lacks)
+}
+
+fn lacks(option: &str, value: impl Display, only: impl Display) -> String {
+    format!("stage=compute has no {option}={value}, only {only}")
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::testing::scene;
+    use crate::{Support, parse, supports};
+
+    #[test]
+    fn compute_shaders_name_what_they_lack() {
+        let scene = scene("sphere-table");
+        let objection = |options: &str| {
+            let spec = parse(&format!("cubemap-trace({options})")).expect("a technique");
+            match supports(&spec, &scene) {
+                Support::Yes => String::new(),
+                Support::No(reason) => reason,
+            }
+        };
+        for (option, only) in [
+            ("criterion=both", "analytic, distance"),
+            ("criterion=switch", "analytic, distance"),
+            ("sampling=angle", "step, texel"),
+            ("pyramid=published", "off, sound"),
+            ("bounces=3", "1"),
+            ("unresolved=environment", "mark, background"),
+        ] {
+            assert_eq!(objection(option), "");
+            assert_eq!(
+                objection(&format!("stage=compute,{option}")),
+                format!("stage=compute has no {option}, only {only}")
+            );
+        }
+        let others = "criterion=distance,sampling=texel,pyramid=sound,unresolved=background";
+        assert_eq!(objection(&format!("stage=compute,{others}")), "");
+    }
+}

@@ -104,30 +104,50 @@ fn expanded(text: &str, modules: &[(String, &str)]) -> String {
 
 #[cfg(test)]
 pub(crate) mod tests {
-    use std::collections::BTreeSet;
+    use std::collections::{BTreeMap, BTreeSet};
+    use std::fs;
+    use std::path::Path;
 
     use naga::back::{hlsl, msl};
     use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 
     use super::*;
 
+    /// Whether a file has entry points. Those of `shared/` have none.
+    fn is_program(text: &str) -> bool {
+        ["@compute", "@vertex", "@fragment"]
+            .iter()
+            .any(|stage| text.contains(stage))
+    }
+
     /// Every program and its features.
     fn programs() -> Vec<(String, Vec<String>)> {
         let mut modules = Vec::new();
         files(&SHADERS, &mut modules);
-        let is_shared = |name: &str| name.starts_with("shared/");
-        let programs = modules.iter().filter(|(name, _)| !is_shared(name));
+        let modules: BTreeMap<_, _> = modules.into_iter().collect();
+        let programs = modules.iter().filter(|(_, text)| is_program(text));
         programs
-            .map(|(name, text)| {
-                let imported = modules.iter().filter(|(other, _)| {
-                    is_shared(other)
-                        && text.contains(&format!("package::{}", other.replace('/', "::")))
-                });
-                let texts = imported.map(|(_, text)| *text).chain([*text]);
+            .map(|(name, _)| {
+                let mut reached = BTreeSet::new();
+                reach(&modules, name, &mut reached);
+                let texts = reached.iter().map(|name| modules[name.as_str()]);
                 let features: BTreeSet<_> = texts.flat_map(features).collect();
                 (name.clone(), features.into_iter().collect())
             })
             .collect()
+    }
+
+    /// A module and all that it imports, directly or by others.
+    fn reach(modules: &BTreeMap<String, &str>, name: &str, reached: &mut BTreeSet<String>) {
+        if !reached.insert(name.to_owned()) {
+            return;
+        }
+        for other in modules.keys() {
+            let path = format!("package::{}::", other.replace('/', "::"));
+            if modules[name].contains(&path) {
+                reach(modules, other, reached);
+            }
+        }
     }
 
     /// Names in `@if(…)`.
@@ -169,22 +189,90 @@ pub(crate) mod tests {
         })
     }
 
+    /// What is wrong with a linked program that is used with these features.
+    fn fault(text: &str, features: &[&str]) -> Option<String> {
+        let module = match naga::front::wgsl::parse_str(text) {
+            Ok(module) => module,
+            Err(error) => return Some(error.emit_to_string(text)),
+        };
+        // Subgroups are for adapters that have them, behind this feature alone.
+        let mut capabilities = Capabilities::RAY_QUERY | Capabilities::default();
+        capabilities.set(Capabilities::SUBGROUP, features.contains(&"ballot"));
+        let mut validator = Validator::new(ValidationFlags::all(), capabilities);
+        match validator.validate(&module) {
+            Ok(info) => translate(&module, &info).err(),
+            Err(error) => Some(error.emit_to_string(text)),
+        }
+    }
+
     #[test]
     fn every_program_is_valid_with_all_sets_of_few_features_and_pairs_of_many() {
-        let programs = programs();
-        assert!(programs.len() >= 6, "{programs:?}");
-        for (program, features) in &programs {
+        let mut faults = Vec::new();
+        for (program, features) in &programs() {
             for on in sets(features) {
-                let module = parsed(program, &on);
-                // Subgroups are for adapters that have them, behind this feature alone.
-                let mut capabilities = Capabilities::RAY_QUERY | Capabilities::default();
-                capabilities.set(Capabilities::SUBGROUP, on.contains(&"ballot"));
-                let info = Validator::new(ValidationFlags::all(), capabilities)
-                    .validate(&module)
-                    .unwrap_or_else(|error| panic!("{program} {on:?}: {error:?}"));
-                translate(&module, &info)
-                    .unwrap_or_else(|error| panic!("{program} {on:?}: {error}"));
+                let fault = match link(program, &on) {
+                    Ok(text) => fault(&text, &on),
+                    Err(error) => Some(error),
+                };
+                faults.extend(fault.map(|fault| format!("{program} {on:?}: {fault}")));
             }
+        }
+        assert!(faults.is_empty(), "{}", faults.join("\n"));
+    }
+
+    #[test]
+    fn an_invalid_program_is_noticed() {
+        assert_eq!(fault("@compute @workgroup_size(1) fn idle() {}", &[]), None);
+        for wrong in [
+            "@compute @workgroup_size(1) fn idle() { undefined(); }",
+            "@compute @workgroup_size(1) fn idle() { let x: u32 = 1.0; }",
+            "@compute @workgroup_size(1) fn idle() { workgroupBarrier() }",
+            // Well-typed, but no binding.
+            "var<storage> list: array<u32>; @compute @workgroup_size(1) fn idle() { _ = list[0]; }",
+        ] {
+            assert!(fault(wrong, &[]).is_some(), "{wrong}");
+        }
+        let subgroups = "@compute @workgroup_size(32) fn idle() { _ = subgroupBallot(true); }";
+        assert!(fault(subgroups, &[]).is_some());
+        assert_eq!(fault(subgroups, &["ballot"]), None);
+    }
+
+    /// Paths of the files below a folder that end in `extension`.
+    fn on_disk(folder: &Path, extension: &str, into: &mut Vec<std::path::PathBuf>) {
+        for entry in fs::read_dir(folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                on_disk(&path, extension, into);
+            } else if path.extension().is_some_and(|found| found == extension) {
+                into.push(path);
+            }
+        }
+    }
+
+    #[test]
+    fn every_file_is_a_shared_module_or_a_program_that_is_linked() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let folder = root.join("../../shaders");
+        let (mut shaders, mut sources) = (Vec::new(), Vec::new());
+        on_disk(&folder, "wesl", &mut shaders);
+        on_disk(&root.join("src"), "rs", &mut sources);
+        let sources = sources
+            .iter()
+            .map(|path| fs::read_to_string(path).expect("text"));
+        let sources: String = sources.collect();
+        let programs: BTreeSet<_> = programs().into_iter().map(|(name, _)| name).collect();
+        for path in shaders {
+            let name = path
+                .strip_prefix(&folder)
+                .expect("below")
+                .with_extension("");
+            let name = name.to_str().expect("plain").replace('\\', "/");
+            let shared = name.starts_with("shared/");
+            assert_eq!(programs.contains(&name), !shared, "{name}: entry points");
+            assert!(
+                shared || sources.contains(&format!("\"{name}\"")),
+                "no source names the program {name}"
+            );
         }
     }
 

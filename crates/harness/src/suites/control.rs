@@ -6,9 +6,9 @@
 //! by a shader or by ray queries in hardware.
 
 use crate::show::number::{percent, short};
-use crate::show::plot::{Axis, Scale};
-
+use crate::show::plot::Axis;
 use crate::suites::figure::{Figure, Quantity};
+use crate::suites::paths::{AGREEMENT, ANGLE, BUILD_CPU, BUILD_GPU, MEAN_PX, TRACE_MS};
 use crate::suites::results::Results;
 use crate::suites::results::power;
 use crate::suites::series::{Point, Series};
@@ -65,20 +65,10 @@ const COSTS: [(&str, &str); 4] = [
     ),
 ];
 
-const AGREEMENT: &str = "object_agreement";
-const ANGLE: &str = "angular_error_deg.p50";
-const OFFSET: &str = "vertices.offset_px.mean";
-const BUILD_CPU: &str = "time_ms.build.median";
-const BUILD_GPU: &str = "time_ms.passes.build";
-const TRACE: &str = "time_ms.passes.trace";
-
 fn figures(asked: &Asked<'_>) -> Vec<Figure> {
     let scene = asked.scene;
     if let Some(scene) = scene {
-        let axis = Axis {
-            label: "scene".to_owned(),
-            scale: Scale::Names(vec![scene.to_owned()]),
-        };
+        let axis = Axis::names("scene", [scene]);
         return vec![cost(axis, &[(0.0, scene.to_owned())])];
     }
     let sizes =
@@ -119,7 +109,7 @@ fn gap() -> Figure {
             Quantity::log("angular_error_deg.p99"),
             Quantity::linear("coverage.iou"),
         ],
-        quotes: Vec::new(),
+        quotes: &[],
         analysis: closing,
     }
 }
@@ -184,18 +174,18 @@ fn bits() -> Figure {
         axis: Axis::log("zoom"),
         series: [(DOT, "linear"), (CROSS, "linear(residual=cross)")].map(series).into(),
         quantities: vec![
-            Quantity::linear(OFFSET),
+            Quantity::linear(MEAN_PX),
             Quantity::linear("vertices.offset_share.over_0_71"),
             Quantity::linear("vertices.offset_px.max"),
         ],
-        quotes: Vec::new(),
+        quotes: &[],
         analysis: flat_cosine,
     }
 }
 
 fn flat_cosine(results: &Results<'_>) -> Vec<String> {
     let pair = |zoom: f64| {
-        let of = |series| results.at(series, zoom, OFFSET);
+        let of = |series| results.at(series, zoom, MEAN_PX);
         of(DOT).zip(of(CROSS))
     };
     let (first, last) = (f64::from(ZOOMS[0]), f64::from(ZOOMS[ZOOMS.len() - 1]));
@@ -235,12 +225,12 @@ fn cost(axis: Axis, scenes: &[(f64, String)]) -> Figure {
         quantities: vec![
             Quantity::log(BUILD_CPU),
             Quantity::log(BUILD_GPU).called("building on the GPU (ms)"),
-            Quantity::log(TRACE).called("tracing (ms)"),
+            Quantity::log(TRACE_MS).called("tracing (ms)"),
             Quantity::linear("work.node_tests").called("nodes visited per mirror pixel"),
             Quantity::linear("work.evaluations").called("triangles tested per mirror pixel"),
             Quantity::linear(AGREEMENT),
         ],
-        quotes: Vec::new(),
+        quotes: &[],
         analysis: building,
     }
 }
@@ -252,7 +242,7 @@ fn building(results: &Results<'_>) -> Vec<String> {
         (HARDWARE_REBUILT, BUILD_GPU, "on the GPU"),
     ] {
         let built = results.curve(series, path);
-        let traced = results.curve(series, TRACE);
+        let traced = results.curve(series, TRACE_MS);
         let (Some(built_last), Some(traced_last)) = (built.last(), traced.last()) else {
             continue;
         };

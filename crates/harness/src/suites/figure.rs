@@ -3,9 +3,9 @@
 
 use crate::record::metrics;
 use crate::show::plot::{Axis, Scale};
+use crate::suites::results::Results;
 
 use super::series::{Ask, Series};
-use crate::suites::results::Results;
 
 /// A sweep, and what is shown of it.
 #[derive(Clone, Debug)]
@@ -25,7 +25,7 @@ pub struct Figure {
     /// What is drawn, a plot each.
     pub quantities: Vec<Quantity>,
     /// The paper's numbers.
-    pub quotes: Vec<Quote>,
+    pub quotes: &'static [Quote],
     /// What came out, in sentences (plain text).
     pub analysis: fn(&Results<'_>) -> Vec<String>,
 }

@@ -34,6 +34,7 @@ mod estalella;
 mod figure;
 mod page;
 mod papers;
+mod paths;
 mod pictures;
 mod plan;
 pub mod report;

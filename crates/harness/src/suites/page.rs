@@ -14,10 +14,10 @@ use crate::show::number::{or_dash, short, significant};
 use crate::show::plot::{Axis, Plot, Point as Mark, Scale, Series as Marks, TALL};
 use crate::show::table::Table;
 use crate::show::{facts, pictures, words};
+use crate::suites::results::Results;
 
 use super::figure::{Figure, Quantity, Quote};
 use super::suite::{Picture, Suite};
-use crate::suites::results::Results;
 
 /// Folder of the plots and tables, inside the page's.
 const FOLDER: &str = "figures";

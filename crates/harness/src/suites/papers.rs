@@ -3,9 +3,9 @@
 
 use crate::record::technique::properties;
 use crate::show::number::percent;
-use crate::show::plot::{Axis, Scale};
-
+use crate::show::plot::Axis;
 use crate::suites::figure::{Figure, Quantity};
+use crate::suites::paths::{AGREEMENT, ANGLE, FLIP, FRAME_MS};
 use crate::suites::results::Results;
 use crate::suites::series::{Point, Series};
 use crate::suites::shelf;
@@ -25,11 +25,6 @@ pub const SUITE: Suite = Suite {
 
 /// Small enough that all of them can be measured on a software adapter.
 const SIZE: [u32; 2] = [240, 180];
-
-const FRAME_MS: &str = "time_ms.frame.median";
-const ANGLE: &str = "angular_error_deg.p50";
-const AGREEMENT: &str = "object_agreement";
-const FLIP: &str = "color.flip";
 
 /// Label and technique, paper by paper: Szabo's searches and refinements (to level 2, where the scene
 /// of most triangles, `planar`, has 820 000), Estalella's as the paper runs them, what games use, Číž's as published and as we correct it, and the control.
@@ -96,7 +91,6 @@ fn table(scenes: &[&str]) -> Figure {
             .map(|(x, (_, technique))| point(x, scene, technique))
             .collect(),
     };
-    let labels = TECHNIQUES.map(|(label, _)| label.to_owned());
     Figure {
         anchor: "all",
         title: "All techniques".to_owned(),
@@ -105,13 +99,10 @@ fn table(scenes: &[&str]) -> Figure {
             "The same scenes by every technique. Where one has no point it does not apply, for \
                    the reason given below."
                 .to_owned(),
-        axis: Axis {
-            label: "technique".to_owned(),
-            scale: Scale::Names(labels.to_vec()),
-        },
+        axis: Axis::names("technique", TECHNIQUES.map(|(label, _)| label)),
         series: scenes.iter().map(series).collect(),
         quantities: [quantities(), vec![Quantity::log(FRAME_MS)]].concat(),
-        quotes: Vec::new(),
+        quotes: &[],
         analysis: |results| {
             results
                 .series()
@@ -153,7 +144,7 @@ fn scatter(anchor: &'static str, scene: &str) -> Figure {
         axis: Axis::log("time of a frame (ms)"),
         series: TECHNIQUES.iter().map(series).collect(),
         quantities: quantities(),
-        quotes: Vec::new(),
+        quotes: &[],
         analysis: |results| front(results).into_iter().collect(),
     }
 }

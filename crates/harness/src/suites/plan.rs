@@ -85,7 +85,7 @@ mod tests {
                 points,
             }],
             quantities: Vec::new(),
-            quotes: Vec::new(),
+            quotes: &[],
             analysis: |_| Vec::new(),
         }
     }

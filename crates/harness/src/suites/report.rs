@@ -129,7 +129,7 @@ fn figures(scenes: &[String], everywhere: bool) -> Vec<Figure> {
         },
         series: scenes.iter().map(series).collect(),
         quantities: Vec::new(),
-        quotes: Vec::new(),
+        quotes: &[],
         analysis: |_| Vec::new(),
     }]
 }

@@ -32,6 +32,16 @@ pub struct Point {
     pub along: Option<&'static str>,
 }
 
+impl Series {
+    /// Points of one kind.
+    pub fn new(label: impl Into<String>, points: impl IntoIterator<Item = Point>) -> Self {
+        Self {
+            label: label.into(),
+            points: points.into_iter().collect(),
+        }
+    }
+}
+
 impl Point {
     /// A point without pictures, in the scene's own size.
     pub fn new(x: f64, scene: impl Into<String>, technique: impl Into<String>) -> Self {
@@ -54,7 +64,7 @@ impl Point {
         }
     }
 
-    /// Whether a row holds the measurement of this self. Names may be spelled differently: options in
+    /// Whether a row holds the measurement of this point. Names may be spelled differently: options in
     /// another order, a scene file by its path.
     pub fn is_of(&self, row: &Record) -> bool {
         let spec = |name: &str| catoptric_reflect::parse(name).ok();

@@ -82,6 +82,14 @@ impl Axis {
         }
     }
 
+    /// An axis of names, at 0, 1, 2, …
+    pub fn names<'n>(label: &str, names: impl IntoIterator<Item = &'n str>) -> Self {
+        Self {
+            label: label.to_owned(),
+            scale: Scale::Names(names.into_iter().map(str::to_owned).collect()),
+        }
+    }
+
     /// Where a value stands; `None` where it cannot be shown.
     pub fn place(&self, value: f64) -> Option<f64> {
         let place = match self.scale {

@@ -1,24 +1,15 @@
 //! What the figures share: sizes, and where their numbers stand in a record.
 
-use crate::show::plot::{Axis, Scale};
 use crate::suites::figure::Quantity;
+use crate::suites::paths::{
+    AGREEMENT, ANGLE, FRAME_MS, NODE_TESTS, PIXELS, SAMPLES, TRACE_MS, UNRESOLVED,
+};
 use crate::suites::results::Results;
 use crate::suites::series::{Point, Series};
 
 /// Picture size of everything outside the grid: steps of a thousandth of a ray are slow on a
 /// software adapter.
 pub const SIZE: [u32; 2] = [160, 120];
-pub const FRAME_MS: &str = "time_ms.frame.median";
-pub const TRACE_MS: &str = "time_ms.passes.trace";
-pub const AGREEMENT: &str = "object_agreement";
-
-/// Against the truth with mirrors in mirrors.
-pub const FULL_AGREEMENT: &str = "against_full.object_agreement";
-pub const UNRESOLVED: &str = "coverage.unresolved";
-pub const SAMPLES: &str = "work.samples";
-pub const NODE_TESTS: &str = "work.node_tests";
-pub const ANGLE: &str = "angular_error_deg.p50";
-pub const PIXELS: &str = "coverage.mirror_pixels";
 
 /// Where one option is looked at.
 pub const SCENES: [&str; 2] = ["sphere-objects-1k", "box"];
@@ -33,14 +24,6 @@ pub fn point(x: usize, scene: &str, technique: impl Into<String>) -> Point {
     Point {
         resolution: Some(SIZE),
         ..Point::new(x as f64, scene, technique)
-    }
-}
-
-/// An axis of names.
-pub fn names<'n>(label: &str, names: impl IntoIterator<Item = &'n str>) -> Axis {
-    Axis {
-        label: label.to_owned(),
-        scale: Scale::Names(names.into_iter().map(str::to_owned).collect()),
     }
 }
 

@@ -3,9 +3,10 @@
 use crate::show::number::{percent, short};
 use crate::show::plot::Axis;
 use crate::suites::figure::{Figure, Quantity};
+use crate::suites::paths::{AGREEMENT, NODE_TESTS, SAMPLES};
 use crate::suites::results::Results;
 
-use super::data::{AGREEMENT, NODE_TESTS, SAMPLES, by_scene, names, nodes, quantities};
+use super::data::{by_scene, nodes, quantities};
 
 pub fn figures(scenes: &[&str]) -> Vec<Figure> {
     vec![
@@ -25,7 +26,7 @@ pub fn cubemap(options: &str) -> String {
 pub fn values(figure: Figure, label: &str, values: &[(&str, &str)], scenes: &[&str]) -> Figure {
     let techniques: Vec<_> = values.iter().map(|(_, options)| cubemap(options)).collect();
     Figure {
-        axis: names(label, values.iter().map(|(name, _)| *name)),
+        axis: Axis::names(label, values.iter().map(|(name, _)| *name)),
         series: by_scene(scenes, &techniques, Some(scenes[0])),
         quantities: quantities(),
         ..figure
@@ -41,7 +42,7 @@ pub fn figure(anchor: &'static str, title: &str, after: &'static str, question: 
         axis: Axis::linear(""),
         series: Vec::new(),
         quantities: Vec::new(),
-        quotes: Vec::new(),
+        quotes: &[],
         analysis: |_| Vec::new(),
     }
 }

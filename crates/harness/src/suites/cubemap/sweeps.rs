@@ -4,13 +4,15 @@
 use crate::show::number::{percent, short};
 use crate::show::plot::Axis;
 use crate::suites::figure::{Figure, Quantity, Quote};
+use crate::suites::paths::{
+    AGREEMENT, ANGLE, FRAME_MS, FULL_AGREEMENT, FULL_ANGLE, MAPS_MS, PYRAMID_MS, SAMPLES,
+    UNRESOLVED,
+};
 use crate::suites::results::Results;
 use crate::suites::results::power;
 use crate::suites::series::{Ask, Series};
 
-use super::data::{
-    AGREEMENT, ANGLE, FRAME_MS, FULL_AGREEMENT, SAMPLES, UNRESOLVED, point, quantities,
-};
+use super::data::{point, quantities};
 use super::options::{cubemap, figure, values};
 
 pub fn figures(scene: Option<&str>, scenes: &[&str]) -> Vec<Figure> {
@@ -116,8 +118,8 @@ fn rebuild(scenes: &[&str]) -> Figure {
             Quantity::log(FRAME_MS),
         ],
         quotes: match scenes.contains(&QUOTED) {
-            true => rebuild_quotes(),
-            false => Vec::new(),
+            true => &REBUILD,
+            false => &[],
         },
         analysis: |results| {
             let series = results.series().iter();
@@ -145,11 +147,9 @@ fn rebuild(scenes: &[&str]) -> Figure {
 
 /// The scene that is nearest to the thesis's first one.
 const QUOTED: &str = "box";
-const MAPS_MS: &str = "time_ms.passes.maps";
-const PYRAMID_MS: &str = "time_ms.passes.pyramid";
 
-fn rebuild_quotes() -> Vec<Quote> {
-    let quote = |what, theirs, x, path| Quote {
+const fn quote(what: &'static str, theirs: &'static str, x: f64, path: &'static str) -> Quote {
+    Quote {
         what,
         theirs,
         on: "GT 540M",
@@ -159,16 +159,17 @@ fn rebuild_quotes() -> Vec<Quote> {
             path,
             unit: "ms",
         }),
-    };
-    vec![
-        quote("maps, 128²", "8 ms", 128.0, MAPS_MS),
-        quote("maps, 256²", "35 ms", 256.0, MAPS_MS),
-        quote("maps, 512²", "136 ms", 512.0, MAPS_MS),
-        quote("pyramid, 128²", "7 ms", 128.0, PYRAMID_MS),
-        quote("pyramid, 256²", "10 ms", 256.0, PYRAMID_MS),
-        quote("pyramid, 512²", "14 ms", 512.0, PYRAMID_MS),
-    ]
+    }
 }
+
+const REBUILD: [Quote; 6] = [
+    quote("maps, 128²", "8 ms", 128.0, MAPS_MS),
+    quote("maps, 256²", "35 ms", 256.0, MAPS_MS),
+    quote("maps, 512²", "136 ms", 512.0, MAPS_MS),
+    quote("pyramid, 128²", "7 ms", 128.0, PYRAMID_MS),
+    quote("pyramid, 256²", "10 ms", 256.0, PYRAMID_MS),
+    quote("pyramid, 512²", "14 ms", 512.0, PYRAMID_MS),
+];
 
 const BOUNCES: [(&str, &str); 6] = [
     ("1", "bounces=1"),
@@ -189,8 +190,6 @@ const FINE: usize = 3;
 const CHANGE: f64 = 0.003;
 /// A share of pixels below which more rays count as no better.
 const DEEPER: f64 = 0.002;
-
-const FULL_ANGLE: &str = "against_full.angular_error_deg.p50";
 
 fn bounces(scene: Option<&str>) -> Figure {
     let scenes = [scene.unwrap_or("bowl")];

@@ -4,16 +4,16 @@
 use crate::show::number::{count, percent, short};
 use crate::show::plot::Axis;
 use crate::suites::figure::{Figure, Quantity};
+use crate::suites::paths::{
+    AGREEMENT, FRAME_MS, FULL_AGREEMENT, PREPARE_MS, SAMPLES, TRACE_MS, UNRESOLVED,
+};
 use crate::suites::results::Results;
 use crate::suites::results::{power, power_error};
 use crate::suites::series::{Point, Series};
 use crate::suites::shelf;
 
-use super::data::{
-    AGREEMENT, FRAME_MS, FULL_AGREEMENT, SAMPLES, TRACE_MS, UNRESOLVED, names, point,
-};
+use super::data::point;
 
-const PREPARE_MS: &str = "time_ms.prepare";
 /// A cost that grows as the scene to a smaller power counts as flat.
 const FLAT: f64 = 0.05;
 
@@ -77,7 +77,7 @@ fn capabilities() -> Figure {
                    cubemap trace follows three rays and all are held against that truth too. A \
                    technique without a point says why it does not apply."
                 .to_owned(),
-        axis: names("technique", ALL.map(|(label, _)| label)),
+        axis: Axis::names("technique", ALL.map(|(label, _)| label)),
         series: ABILITIES.iter().map(series).collect(),
         quantities: vec![
             Quantity::linear(AGREEMENT),
@@ -85,7 +85,7 @@ fn capabilities() -> Figure {
             Quantity::log(PREPARE_MS),
             Quantity::log(FRAME_MS),
         ],
-        quotes: Vec::new(),
+        quotes: &[],
         analysis: abilities,
     }
 }
@@ -223,7 +223,7 @@ fn growth() -> Figure {
             Quantity::linear(SAMPLES),
             Quantity::linear(UNRESOLVED),
         ],
-        quotes: Vec::new(),
+        quotes: &[],
         analysis: |results| {
             let verdict = claimed(results, GROWTH[0].0);
             let series = results.series().iter();

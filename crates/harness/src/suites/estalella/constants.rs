@@ -3,12 +3,13 @@
 
 use crate::show::number::short;
 use crate::show::plot::Axis;
-
-use super::data::{MEAN_PX, MEDIAN_PX, P95_PX, search};
 use crate::suites::figure::{Figure, Quantity};
+use crate::suites::paths::{MEAN_PX, MEDIAN_PX, P95_PX};
 use crate::suites::results::Results;
 use crate::suites::results::power;
 use crate::suites::series::{Point, Series};
+
+use super::data::search;
 
 /// A figure for the edge of a cell and one for each constant.
 pub fn figures() -> [Figure; 4] {
@@ -60,7 +61,7 @@ fn cells() -> Figure {
             Quantity::log(MEAN_PX),
             Quantity::log(P95_PX),
         ],
-        quotes: Vec::new(),
+        quotes: &[],
         analysis: |results| {
             let power = power(&results.curve("grid", MEDIAN_PX)).map(|power| {
                 format!(
@@ -105,7 +106,7 @@ fn constant(anchor: &'static str, title: &str, option: &str, values: &[f64]) -> 
             series("ellipsoid", "prototype-ellipsoid"),
         ],
         quantities: vec![Quantity::log(MEDIAN_PX), Quantity::log(P95_PX)],
-        quotes: Vec::new(),
+        quotes: &[],
         analysis: constant_analysis,
     }
 }

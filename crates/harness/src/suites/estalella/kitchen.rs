@@ -3,21 +3,17 @@
 
 use crate::show::number::short;
 use crate::show::plot::Axis;
-
-use super::data::{
-    AGREEMENT, EXTRA, MEAN_PX, MEDIAN_PX, MISSING, P95_PX, names, search, with_grid,
-};
 use crate::suites::figure::{Figure, Quantity, Quote};
+use crate::suites::paths::{
+    AGREEMENT, EVALUATIONS, EXTRA, FLIP, FRAME_MS, MEAN_PX, MEDIAN_PX, MISSING, P95_PX, SEARCH_MS,
+    SEARCHED,
+};
 use crate::suites::results::Results;
 use crate::suites::series::{Ask, Point, Series};
 
-const KITCHEN: &str = "kitchen";
+use super::data::{search, with_grid};
 
-const FRAME_MS: &str = "time_ms.frame.median";
-const SEARCH_MS: &str = "time_ms.passes.search";
-const EVALUATIONS: &str = "work.evaluations";
-const SEARCHED: &str = "vertices.searched";
-const FLIP: &str = "color.flip";
+const KITCHEN: &str = "kitchen";
 
 /// On what the paper measured.
 const PAPER: &str = "Xeon 3.2 GHz, GeForce 6800";
@@ -73,7 +69,7 @@ fn methods(scene: &str) -> Figure {
                    environment map made in every frame. The paper finds the grid's picture the \
                    smoothest, and the map's wrong for what is near."
             .to_owned(),
-        axis: names("method", &labels),
+        axis: Axis::names("method", labels),
         series: vec![Series {
             label: "pictures".to_owned(),
             points: points
@@ -81,15 +77,17 @@ fn methods(scene: &str) -> Figure {
                 .collect(),
         }],
         quantities: picture_quantities(),
-        quotes: vec![
-            quote(
-                "all vertices",
-                "1.3 frames a second: 769 ms",
-                "pictures",
-                0.0,
-            ),
-            quote("10 % grid", "10 frames a second: 100 ms", "pictures", 1.0),
-        ],
+        quotes: const {
+            &[
+                quote(
+                    "all vertices",
+                    "1.3 frames a second: 769 ms",
+                    "pictures",
+                    0.0,
+                ),
+                quote("10 % grid", "10 frames a second: 100 ms", "pictures", 1.0),
+            ]
+        },
         analysis: methods_analysis,
     }
 }
@@ -165,12 +163,12 @@ fn density(scene: &str) -> Figure {
             },
         ],
         quantities: picture_quantities(),
-        quotes: vec![
+        quotes: const { &[
             quote("4.1 %", "16.3 frames a second: 61 ms", "9 steps", 4.1),
             quote("5.5 %", "13.6 frames a second: 74 ms", "9 steps", 5.5),
             quote("9.6 %", "10.1 frames a second: 99 ms", "9 steps", 9.6),
             quote("14.3 %", "8.3 frames a second: 120 ms", "9 steps", 14.3),
-        ],
+        ] },
         analysis: density_analysis,
     }
 }
@@ -250,7 +248,7 @@ fn iterations(scene: Option<&str>) -> Figure {
             Quantity::linear(AGREEMENT),
             Quantity::linear(SEARCH_MS).called("search passes (ms)"),
         ],
-        quotes: Vec::new(),
+        quotes: &[],
         analysis: iterations_analysis,
     }
 }

@@ -10,7 +10,6 @@ use catoptric_scene::{LoadOptions, Scene, Shape};
 use glam::{DVec3, Vec3};
 
 use crate::output::PICTURES as FOLDER;
-
 use crate::suites::suite::{Picture, Studio};
 
 /// All pictures; none where the user asks for a scene of their own.

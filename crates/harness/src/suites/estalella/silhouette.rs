@@ -1,9 +1,9 @@
 //! Hidden vertices: what becomes of triangles that the mirror hides in part.
 
 use crate::show::number::short;
-
-use super::data::{AGREEMENT, EXTRA, MISSING, names};
+use crate::show::plot::Axis;
 use crate::suites::figure::{Figure, Quantity};
+use crate::suites::paths::{AGREEMENT, EXTRA, MISSING};
 use crate::suites::results::Results;
 use crate::suites::series::{Point, Series};
 
@@ -28,7 +28,7 @@ pub fn figure() -> Figure {
                    the mirror's visible pixels and cannot cross the ring, which parts them. Where it continues vertices it walks on the \
                    mirrors as they are without the objects before them."
             .to_owned(),
-        axis: names("triangles with a hidden vertex", &["dropped", "continued"]),
+        axis: Axis::names("triangles with a hidden vertex", ["dropped", "continued"]),
         series: vec![
             series("reflector cube maps", |hidden| {
                 format!("reflector-cubemap(hidden={hidden},depth=virtual)")
@@ -43,7 +43,7 @@ pub fn figure() -> Figure {
             Quantity::linear(EXTRA),
             Quantity::linear(AGREEMENT),
         ],
-        quotes: Vec::new(),
+        quotes: &[],
         analysis,
     }
 }

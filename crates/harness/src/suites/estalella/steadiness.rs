@@ -1,15 +1,13 @@
 //! Flicker over a camera path.
 
 use crate::show::number::short;
-
-use super::data::{MEAN_PX, names, search, with_grid};
+use crate::show::plot::Axis;
 use crate::suites::figure::{Figure, Quantity};
+use crate::suites::paths::{JITTER_MEAN, JITTER_P99, JUMPS, MEAN_PX};
 use crate::suites::results::Results;
 use crate::suites::series::{Point, Series};
 
-const JITTER: &str = "temporal.jitter_px.mean";
-const JITTER_P99: &str = "temporal.jitter_px.p99";
-const JUMPS: &str = "temporal.jumps";
+use super::data::{search, with_grid};
 
 /// By the number of steps, without and with a grid.
 pub fn figure() -> Figure {
@@ -35,7 +33,7 @@ pub fn figure() -> Figure {
              error changes from frame to frame; that a fixed number of steps flickers and a grid of a tenth \
              of the vertices does not is the paper's claim."
         ),
-        axis: names("technique", &labels),
+        axis: Axis::names("technique", labels),
         series: vec![Series {
             label: "path".to_owned(),
             points: points
@@ -46,12 +44,12 @@ pub fn figure() -> Figure {
                 .collect(),
         }],
         quantities: vec![
-            Quantity::log(JITTER),
+            Quantity::log(JITTER_MEAN),
             Quantity::log(JITTER_P99),
             Quantity::linear(JUMPS),
             Quantity::log(MEAN_PX),
         ],
-        quotes: Vec::new(),
+        quotes: &[],
         analysis,
     }
 }
@@ -59,7 +57,7 @@ pub fn figure() -> Figure {
 fn analysis(results: &Results<'_>) -> Vec<String> {
     let at = |x, path| results.at("path", x, path);
     let sentence = |steps: &str, alone: f64, grid: f64| {
-        let (mean, gridded) = (at(alone, JITTER)?, at(grid, JITTER)?);
+        let (mean, gridded) = (at(alone, JITTER_MEAN)?, at(grid, JITTER_MEAN)?);
         let (tail, tail_gridded) = (at(alone, JITTER_P99)?, at(grid, JITTER_P99)?);
         let (jumps, jumps_gridded) = (at(alone, JUMPS)?, at(grid, JUMPS)?);
         let calmer = [gridded < mean, tail_gridded < tail, jumps_gridded < jumps];

@@ -1,13 +1,14 @@
 //! What came out, and whether the thesis' claims hold here, by time and by counted work.
 
 use crate::show::number::{count, percent, short};
+use crate::suites::paths::{
+    EVALUATIONS, FRAME_MS, JITTER_MAX, JITTER_MEAN, JUMPS, MEAN_PX, MOVING_MS, NODE_TESTS, P95_PX,
+    STEPS, STILL_MS,
+};
 use crate::suites::results::Results;
 use crate::suites::results::{line, power};
 
-use super::data::{
-    CASES, ENLARGED, EVALUATIONS, FRAME_MS, JITTER_MAX, JITTER_MEAN, JUMPS, LINEAR, MOVING_MS,
-    NODE_TESTS, OFFSET, OFFSET_P95, RAW, SEARCHES, STEPS, STILL_MS, STOPPED, WARM,
-};
+use super::data::{CASES, ENLARGED, LINEAR, RAW, SEARCHES, STOPPED, WARM};
 
 /// A ratio from here to its inverse counts as about equal.
 const ABOUT_EQUAL: f64 = 1.25;
@@ -290,7 +291,7 @@ pub fn exactness(results: &Results<'_>) -> Vec<String> {
     if let (Some(holes), Some(failed), Some(mean)) = (
         share(RAW, "vertices.hole", 0.0),
         share(RAW, "vertices.failed", 0.0),
-        at(&results.curve(RAW, OFFSET), 0.0),
+        at(&results.curve(RAW, MEAN_PX), 0.0),
     ) {
         sentences.push(format!(
             "Holes are the rule: on the sphere {holes} of the searches meet one. Without a repair {failed} of \
@@ -308,7 +309,7 @@ pub fn exactness(results: &Results<'_>) -> Vec<String> {
             "the thesis calls the reflection very erroneous by then",
         ),
     ] {
-        let offsets = [OFFSET, OFFSET_P95].map(|path| at(&results.curve(series, path), 0.0));
+        let offsets = [MEAN_PX, P95_PX].map(|path| at(&results.curve(series, path), 0.0));
         if let ([Some(mean), Some(p95)], Some(failed)) =
             (offsets, share(series, "vertices.failed", 0.0))
         {

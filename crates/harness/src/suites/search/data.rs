@@ -1,5 +1,9 @@
 //! What is measured: searches, scenes, and where their numbers stand in a record.
 
+use crate::suites::figure::Quote;
+use crate::suites::paths::FRAME_MS;
+use crate::suites::series::Ask;
+
 pub const LINEAR: &str = "linear";
 pub const WARM: &str = "linear, warm";
 pub const RAW: &str = "hierarchy";
@@ -43,18 +47,49 @@ pub const MOVING: [(&str, &str); 3] = [
 
 /// Frames of the path that are followed.
 pub const FRAMES: u32 = 12;
-pub const SEARCH_MS: &str = "time_ms.passes.search";
-pub const FRAME_MS: &str = "time_ms.frame.median";
-pub const MOVING_MS: &str = "temporal.frame_ms";
-pub const STILL_MS: &str = "temporal.still_ms";
-pub const EVALUATIONS: &str = "work.evaluations";
-pub const NODE_TESTS: &str = "work.node_tests";
-pub const STEPS: &str = "work.steps";
-pub const OFFSET: &str = "vertices.offset_px.mean";
-pub const OFFSET_P95: &str = "vertices.offset_px.p95";
-pub const JITTER_MEAN: &str = "temporal.jitter_px.mean";
-pub const JITTER_MAX: &str = "temporal.jitter_px.max";
-pub const JUMPS: &str = "temporal.jumps";
 
 /// On what the thesis measured.
 pub const THESIS: &str = "Core 2 Duo, GTX 260";
+
+const fn quote(what: &'static str, theirs: &'static str, series: &'static str, x: f64) -> Quote {
+    Quote {
+        what,
+        theirs,
+        on: THESIS,
+        ours: Some(Ask {
+            series,
+            x,
+            path: FRAME_MS,
+            unit: "ms",
+        }),
+    }
+}
+
+/// The milliseconds of Fig. 4.3.
+pub const QUOTES: [Quote; 10] = [
+    quote("a: linear", "90 ms a frame", LINEAR, 0.0),
+    quote("a: hierarchy", "600 ms a frame (6.7 times)", ENLARGED, 0.0),
+    quote("b: linear", "8 ms a frame", LINEAR, 1.0),
+    quote("b: hierarchy", "45 ms a frame (5.6 times)", ENLARGED, 1.0),
+    quote("c: linear", "20 ms a frame", LINEAR, 2.0),
+    quote(
+        "c: hierarchy, enlarged",
+        "95 ms a frame (4.8 times)",
+        ENLARGED,
+        2.0,
+    ),
+    quote(
+        "c: hierarchy, no repair",
+        "80 ms a frame (4 times)",
+        RAW,
+        2.0,
+    ),
+    quote("d: linear", "6 ms a frame", LINEAR, 3.0),
+    quote("d: hierarchy", "20 ms a frame (3.3 times)", ENLARGED, 3.0),
+    quote(
+        "d: hierarchy, stopped early",
+        "12 ms a frame (2 times)",
+        STOPPED,
+        3.0,
+    ),
+];

@@ -11,19 +11,18 @@ mod claims;
 mod data;
 mod pictures;
 
-use crate::show::plot::{Axis, Scale};
-
+use crate::show::plot::Axis;
 use crate::suites::figure::{Figure, Quantity, Quote};
+use crate::suites::paths::{
+    EVALUATIONS, FRAME_MS, JITTER_MAX, JITTER_MEAN, JUMPS, MEAN_PX, MOVING_MS, NODE_TESTS, P95_PX,
+    SEARCH_MS, STEPS, STILL_MS,
+};
 use crate::suites::results::Results;
-use crate::suites::series::{Ask, Point, Series};
+use crate::suites::series::{Point, Series};
 use crate::suites::shelf::CONTROL;
 use crate::suites::suite::{Asked, Budget, Layout, Suite};
 
-use self::data::{
-    CASES, ENLARGED, EVALUATIONS, FRAME_MS, FRAMES, JITTER_MAX, JITTER_MEAN, JUMPS, LINEAR, MOVING,
-    MOVING_MS, NODE_TESTS, OFFSET, OFFSET_P95, RAW, SEARCH_MS, SEARCHES, SIZES, STEPS, STILL_MS,
-    STOPPED, THESIS,
-};
+use self::data::{CASES, FRAMES, MOVING, QUOTES, SEARCHES, SIZES};
 
 /// The suite.
 pub const SUITE: Suite = Suite {
@@ -46,12 +45,12 @@ fn figures(asked: &Asked<'_>) -> Vec<Figure> {
     let scene = asked.scene;
     if let Some(scene) = scene {
         return vec![
-            objects(&[(scene, scene)], Vec::new(), claims::scene),
+            objects(&[(scene, scene)], &[], claims::scene),
             motion(&[(scene, scene)]),
         ];
     }
     vec![
-        objects(&CASES, quotes(), claims::objects),
+        objects(&CASES, &QUOTES, claims::objects),
         growth(
             "vertices",
             "Cost against the number of vertices",
@@ -93,15 +92,8 @@ fn control(scenes: &[(&str, &str)]) -> Series {
     }
 }
 
-fn names(scenes: &[(&str, &str)]) -> Axis {
-    Axis {
-        label: "scene".to_owned(),
-        scale: Scale::Names(scenes.iter().map(|(name, _)| (*name).to_owned()).collect()),
-    }
-}
-
 /// Fig. 4.3.
-fn objects(scenes: &[(&str, &str)], quotes: Vec<Quote>, analysis: Analysis) -> Figure {
+fn objects(scenes: &[(&str, &str)], quotes: &'static [Quote], analysis: Analysis) -> Figure {
     Figure {
         anchor: "objects",
         title: "Both searches, with and without repairs".to_owned(),
@@ -111,7 +103,7 @@ fn objects(scenes: &[(&str, &str)], quotes: Vec<Quote>, analysis: Analysis) -> F
                    has holes between its cones; a vertex in one is placed somewhere (no repair), \
                    searched again in enlarged cones, or answered at a higher level."
                 .to_owned(),
-        axis: names(scenes),
+        axis: Axis::names("scene", scenes.iter().map(|(name, _)| *name)),
         series: (series(scenes, Point::shown).into_iter())
             .chain([control(scenes)])
             .collect(),
@@ -119,48 +111,6 @@ fn objects(scenes: &[(&str, &str)], quotes: Vec<Quote>, analysis: Analysis) -> F
         quotes,
         analysis,
     }
-}
-
-/// The milliseconds of Fig. 4.3.
-fn quotes() -> Vec<Quote> {
-    let quote = |what, theirs, series, x| Quote {
-        what,
-        theirs,
-        on: THESIS,
-        ours: Some(Ask {
-            series,
-            x,
-            path: FRAME_MS,
-            unit: "ms",
-        }),
-    };
-    vec![
-        quote("a: linear", "90 ms a frame", LINEAR, 0.0),
-        quote("a: hierarchy", "600 ms a frame (6.7 times)", ENLARGED, 0.0),
-        quote("b: linear", "8 ms a frame", LINEAR, 1.0),
-        quote("b: hierarchy", "45 ms a frame (5.6 times)", ENLARGED, 1.0),
-        quote("c: linear", "20 ms a frame", LINEAR, 2.0),
-        quote(
-            "c: hierarchy, enlarged",
-            "95 ms a frame (4.8 times)",
-            ENLARGED,
-            2.0,
-        ),
-        quote(
-            "c: hierarchy, no repair",
-            "80 ms a frame (4 times)",
-            RAW,
-            2.0,
-        ),
-        quote("d: linear", "6 ms a frame", LINEAR, 3.0),
-        quote("d: hierarchy", "20 ms a frame (3.3 times)", ENLARGED, 3.0),
-        quote(
-            "d: hierarchy, stopped early",
-            "12 ms a frame (2 times)",
-            STOPPED,
-            3.0,
-        ),
-    ]
 }
 
 /// Fig. 6.1 and 6.2.
@@ -189,7 +139,7 @@ fn growth(
         axis: Axis::log("vertices"),
         series: SEARCHES.iter().map(series).collect(),
         quantities: quantities(Quantity::log),
-        quotes: Vec::new(),
+        quotes: &[],
         analysis,
     }
 }
@@ -201,7 +151,7 @@ fn quantities(time: fn(&'static str) -> Quantity) -> Vec<Quantity> {
         Quantity::linear(EVALUATIONS).called("error evaluations or ray distances per vertex"),
         Quantity::linear(NODE_TESTS).called("node tests per vertex"),
         Quantity::linear(STEPS).called("steps per vertex"),
-        Quantity::linear(OFFSET),
+        Quantity::linear(MEAN_PX),
         Quantity::linear("vertices.failed"),
     ]
 }
@@ -221,17 +171,17 @@ fn exactness() -> Figure {
                    distance of a pixel centre from a point in that pixel is 0.38 pixels in the mean: \
                    no search that answers with a pixel does better."
             .to_owned(),
-        axis: names(&scenes),
+        axis: Axis::names("scene", scenes.map(|(name, _)| name)),
         series: series(&scenes, |point| point),
         quantities: vec![
-            Quantity::linear(OFFSET),
-            Quantity::linear(OFFSET_P95),
+            Quantity::linear(MEAN_PX),
+            Quantity::linear(P95_PX),
             Quantity::linear("vertices.offset_share.over_2"),
             Quantity::linear("vertices.failed"),
             Quantity::linear("vertices.hole"),
             Quantity::linear(NODE_TESTS).called("node tests per vertex"),
         ],
-        quotes: Vec::new(),
+        quotes: &[],
         analysis: claims::exactness,
     }
 }
@@ -247,7 +197,7 @@ fn motion(scenes: &[(&str, &str)]) -> Figure {
                    Jitter is how much a vertex' error changes from one frame to the next; a change \
                    of more than 2 pixels is a jump. A scene whose file has no motion stands still."
                 .to_owned(),
-        axis: names(scenes),
+        axis: Axis::names("scene", scenes.iter().map(|(name, _)| *name)),
         series: series(scenes, |point| Point {
             frames: Some(FRAMES),
             ..point
@@ -261,7 +211,7 @@ fn motion(scenes: &[(&str, &str)]) -> Figure {
             Quantity::linear(STILL_MS),
             Quantity::linear("temporal.steps").called("steps per vertex, from the second frame"),
         ],
-        quotes: Vec::new(),
+        quotes: &[],
         analysis: claims::motion,
     }
 }

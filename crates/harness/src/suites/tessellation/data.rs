@@ -1,26 +1,15 @@
 //! What the figures share: scenes, techniques, numbers of the record, and what is said of them.
 
 use crate::show::number::{count, short};
-use crate::show::plot::{Axis, Scale};
 use crate::suites::figure::{Guide, Quantity};
+use crate::suites::paths::{AGREEMENT, ANGLE, EDGES, FLOOR};
 use crate::suites::results::Results;
 use crate::suites::series::{Point, Series};
 
-pub const FRAME_MS: &str = "time_ms.frame.median";
-pub const AGREEMENT: &str = "object_agreement";
-pub const ANGLE: &str = "angular_error_deg.p50";
-pub const EDGES: &str = "edge_offset_px.mean";
-pub const CRACK_PIXELS: &str = "coverage.crack_pixels";
-pub const JUNCTIONS: &str = "coverage.t_junctions";
-
-/// What whole-pixel answers are off by, from the truth alone.
-pub const FLOOR: &str = "pixel_angle_deg.p50";
 pub const WHOLE_PIXELS: Guide = Guide {
     label: "whole pixels",
     path: FLOOR,
 };
-pub const SEARCHED: &str = "vertices.searched";
-pub const DRAWN: &str = "triangles.drawn";
 
 /// The thesis' scene, two triangles that crack, CESCG's coarse and fine models, and a mirror of facets.
 pub const SQUARE: &str = "sphere-square";
@@ -48,14 +37,6 @@ pub fn adaptive(level: u32, threshold: &str) -> String {
     format!("linear+adaptive(level={level},threshold={threshold})")
 }
 
-/// Points at 0, 1, 2, …, one for each technique.
-pub fn series(label: &str, points: impl IntoIterator<Item = Point>) -> Series {
-    Series {
-        label: label.to_owned(),
-        points: points.into_iter().collect(),
-    }
-}
-
 /// None, full and adaptive against the level limit.
 pub fn three_modes(levels: u32, point: impl Fn(f64, String) -> Point) -> Vec<Series> {
     let points = |technique: &dyn Fn(u32) -> String| -> Vec<Point> {
@@ -63,9 +44,9 @@ pub fn three_modes(levels: u32, point: impl Fn(f64, String) -> Point) -> Vec<Ser
         (0..=levels).map(at).collect()
     };
     vec![
-        series(NONE, points(&|_| "linear".to_owned())),
-        series(FULL, points(&full)),
-        series(ADAPTIVE, points(&|level| adaptive(level, THRESHOLD))),
+        Series::new(NONE, points(&|_| "linear".to_owned())),
+        Series::new(FULL, points(&full)),
+        Series::new(ADAPTIVE, points(&|level| adaptive(level, THRESHOLD))),
     ]
 }
 
@@ -79,13 +60,6 @@ pub fn accuracy() -> Vec<Quantity> {
 
 pub fn quantities(first: impl IntoIterator<Item = Quantity>) -> Vec<Quantity> {
     first.into_iter().chain(accuracy()).collect()
-}
-
-pub fn named(label: &str, names: &[&str]) -> Axis {
-    Axis {
-        label: label.to_owned(),
-        scale: Scale::Names(names.iter().map(|name| (*name).to_owned()).collect()),
-    }
 }
 
 /// What became of a paper's claim.

@@ -1,13 +1,13 @@
 //! A mirror of flat facets, of which CESCG shows a picture.
 
 use crate::show::number::{percent, short};
-
-use super::data::{
-    AGREEMENT, ANGLE, BY_EYE, FRAME_MS, NONE, THRESHOLD, adaptive, full, named, quantities, series,
-};
+use crate::show::plot::Axis;
 use crate::suites::figure::{Figure, Quantity, Quote};
+use crate::suites::paths::{AGREEMENT, ANGLE, FRAME_MS};
 use crate::suites::results::Results;
-use crate::suites::series::{Ask, Point};
+use crate::suites::series::{Ask, Point, Series};
+
+use super::data::{BY_EYE, NONE, THRESHOLD, adaptive, full, quantities};
 
 /// The scene's fine floor, split twice, is 180 000 triangles.
 const SIZE: [u32; 2] = [320, 240];
@@ -29,9 +29,9 @@ pub fn facets(scene: &str) -> Figure {
             ..Point::new(f64::from(x), scene, technique)
         })
     };
-    let mut four = series(FOUR, points("linear"));
+    let mut four = Series::new(FOUR, points("linear"));
     four.points[0].picture = true;
-    let mut eight = series(EIGHT, points("linear(neighbours=8)"));
+    let mut eight = Series::new(EIGHT, points("linear(neighbours=8)"));
     eight.points[0].picture = true;
     Figure {
         anchor: "facets",
@@ -42,13 +42,10 @@ pub fn facets(scene: &str) -> Figure {
              or not at all where the best point is a crease; and on a facet all normals are the same. \
              Does splitting triangles help?"
                 .to_owned(),
-        axis: named(
-            "tessellation",
-            &[NONE, "full, 2 levels", "adaptive, 2 levels"],
-        ),
+        axis: Axis::names("tessellation", [NONE, "full, 2 levels", "adaptive, 2 levels"]),
         series: vec![four, eight],
         quantities: quantities([Quantity::log(FRAME_MS)]),
-        quotes: vec![Quote {
+        quotes: const { &[Quote {
             what: "a polygonal mirror",
             theirs: "“an example”",
             on: BY_EYE,
@@ -58,7 +55,7 @@ pub fn facets(scene: &str) -> Figure {
                 path: AGREEMENT,
                 unit: "of the mirror pixels right",
             }),
-        }],
+        }] },
         analysis,
     }
 }

@@ -8,9 +8,9 @@ use crate::output::PICTURES as FOLDER;
 use crate::run::load::load_options;
 use crate::show::pictures::slug;
 use crate::suites::pictures::geometry;
+use crate::suites::suite::{Picture, Studio};
 
 use super::data::{CRACK, SQUARE, TABLE, THRESHOLD, adaptive, full};
-use crate::suites::suite::{Picture, Studio};
 
 /// All pictures: figure, scene, technique, and what became of the triangles.
 pub fn make(studio: &Studio<'_>) -> anyhow::Result<Vec<Picture>> {

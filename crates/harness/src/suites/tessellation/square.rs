@@ -2,15 +2,17 @@
 
 use crate::show::number::{count, short};
 use crate::show::plot::Axis;
+use crate::suites::figure::{Figure, Quantity, Quote};
+use crate::suites::paths::{
+    AGREEMENT, ANGLE, CRACK_PIXELS, DRAWN, EDGES, FLIP, FLOOR, FRAME_MS, JUNCTIONS, SEARCHED,
+};
+use crate::suites::results::Results;
+use crate::suites::series::{Ask, Point, Series};
 
 use super::data::{
-    ADAPTIVE, AGREEMENT, ANGLE, BY_EYE, CRACK_PIXELS, DRAWN, EDGES, FLOOR, FRAME_MS, FULL,
-    JUNCTIONS, NONE, PAPERS, SEARCHED, THRESHOLD, WHOLE_PIXELS, adaptive, full, named, quantities,
-    series, spared, three_modes, verdict,
+    ADAPTIVE, BY_EYE, FULL, NONE, PAPERS, THRESHOLD, WHOLE_PIXELS, adaptive, full, quantities,
+    spared, three_modes, verdict,
 };
-use crate::suites::figure::{Figure, Quantity, Quote};
-use crate::suites::results::Results;
-use crate::suites::series::{Ask, Point};
 
 /// Level limits: those of Fig. 6.3, and on to triangles smaller than pixels.
 const LEVELS: u32 = 8;
@@ -33,20 +35,22 @@ pub fn straight(scene: &str) -> Figure {
         question: "The corners of a square are reflected where they belong; what lies between is \
                    interpolated. The same square, split until its edges bend."
             .to_owned(),
-        axis: named("the square", &["its corners alone", "split five times"]),
-        series: vec![series(SEARCH, points)],
+        axis: Axis::names("the square", ["its corners alone", "split five times"]),
+        series: vec![Series::new(SEARCH, points)],
         quantities: quantities([Quantity::linear(FRAME_MS)]),
-        quotes: vec![Quote {
-            what: "a square by the reflections of its corners",
-            theirs: "“erroneous”",
-            on: BY_EYE,
-            ours: Some(Ask {
-                series: SEARCH,
-                x: 0.0,
-                path: EDGES,
-                unit: "px off at the edges (mean)",
-            }),
-        }],
+        quotes: const {
+            &[Quote {
+                what: "a square by the reflections of its corners",
+                theirs: "“erroneous”",
+                on: BY_EYE,
+                ours: Some(Ask {
+                    series: SEARCH,
+                    x: 0.0,
+                    path: EDGES,
+                    unit: "px off at the edges (mean)",
+                }),
+            }]
+        },
         analysis: straight_analysis,
     }
 }
@@ -93,25 +97,27 @@ pub fn by_level(scene: &str) -> Figure {
             Quantity::log(ANGLE).beside(WHOLE_PIXELS),
             Quantity::linear(EDGES),
         ],
-        quotes: vec![
-            Quote {
-                what: "level that adaptive reaches at a threshold of 0.001",
-                theirs: "never beyond 2",
-                on: PAPERS,
-                ours: None,
-            },
-            Quote {
-                what: "adaptive against full",
-                theirs: "“practically the same”",
-                on: BY_EYE,
-                ours: Some(Ask {
-                    series: ADAPTIVE,
-                    x: LEVELS as f64,
-                    path: AGREEMENT,
-                    unit: "of the mirror pixels right",
-                }),
-            },
-        ],
+        quotes: const {
+            &[
+                Quote {
+                    what: "level that adaptive reaches at a threshold of 0.001",
+                    theirs: "never beyond 2",
+                    on: PAPERS,
+                    ours: None,
+                },
+                Quote {
+                    what: "adaptive against full",
+                    theirs: "“practically the same”",
+                    on: BY_EYE,
+                    ours: Some(Ask {
+                        series: ADAPTIVE,
+                        x: LEVELS as f64,
+                        path: AGREEMENT,
+                        unit: "of the mirror pixels right",
+                    }),
+                },
+            ]
+        },
         analysis: level_analysis,
     }
 }
@@ -250,20 +256,22 @@ pub fn wireframes(scene: &str) -> Figure {
         after: "Szabo 2013, Fig. 5.3 and 5.4",
         question: "The same reflection three times, shaded and as the triangles it is made of."
             .to_owned(),
-        axis: named("tessellation", &[NONE, "full, 5 levels", ADAPTIVE]),
-        series: vec![series(SEARCH, points)],
+        axis: Axis::names("tessellation", [NONE, "full, 5 levels", ADAPTIVE]),
+        series: vec![Series::new(SEARCH, points)],
         quantities: quantities([Quantity::linear(FRAME_MS), Quantity::log(DRAWN)]),
-        quotes: vec![Quote {
-            what: "full and adaptive tessellation",
-            theirs: "“similar visual quality”",
-            on: BY_EYE,
-            ours: Some(Ask {
-                series: SEARCH,
-                x: 2.0,
-                path: AGREEMENT,
-                unit: "of the mirror pixels right with adaptive",
-            }),
-        }],
+        quotes: const {
+            &[Quote {
+                what: "full and adaptive tessellation",
+                theirs: "“similar visual quality”",
+                on: BY_EYE,
+                ours: Some(Ask {
+                    series: SEARCH,
+                    x: 2.0,
+                    path: AGREEMENT,
+                    unit: "of the mirror pixels right with adaptive",
+                }),
+            }]
+        },
         analysis: |results| {
             let [full, adaptive] = [(SEARCH, 1.0), (SEARCH, 2.0)];
             alike(results, [full, adaptive]).into_iter().collect()
@@ -285,13 +293,13 @@ pub fn visible_levels(scene: &str) -> Figure {
         after: "Szabo 2013, Fig. 6.4",
         question: "Every triangle split so often, but for the hidden ones. What is there to see after level 3?"
             .to_owned(),
-        axis: named("level", &["0", "2", "3", "4"]),
-        series: vec![series(FULL, points)],
+        axis: Axis::names("level", ["0", "2", "3", "4"]),
+        series: vec![Series::new(FULL, points)],
         quantities: quantities([
             Quantity::linear(FRAME_MS),
             Quantity::log(FLIP),
         ]),
-        quotes: vec![Quote {
+        quotes: const { &[Quote {
             what: "after level 3",
             theirs: "“almost no visible difference”",
             on: BY_EYE,
@@ -301,12 +309,10 @@ pub fn visible_levels(scene: &str) -> Figure {
                 path: ANGLE,
                 unit: "degrees off at level 3 (median)",
             }),
-        }],
+        }] },
         analysis: visible_analysis,
     }
 }
-
-const FLIP: &str = "color.flip";
 
 fn visible_analysis(results: &Results<'_>) -> Vec<String> {
     let pair = |path| {
@@ -370,20 +376,22 @@ pub fn cracks(scene: &str) -> Figure {
             "A triangle is split by its worst edge, whatever its neighbour does: where a split \
                    edge meets an unsplit one the surface tears."
                 .to_owned(),
-        axis: named("threshold", &names),
-        series: vec![series(TO_FIVE, points)],
+        axis: Axis::names("threshold", names),
+        series: vec![Series::new(TO_FIVE, points)],
         quantities: quantities(first),
-        quotes: vec![Quote {
-            what: "where triangles split differently meet",
-            theirs: "holes; “an extreme example”",
-            on: BY_EYE,
-            ours: Some(Ask {
-                series: TO_FIVE,
-                x: 3.0,
-                path: CRACK_PIXELS,
-                unit: "pixels in cracks at a threshold of 0.001",
-            }),
-        }],
+        quotes: const {
+            &[Quote {
+                what: "where triangles split differently meet",
+                theirs: "holes; “an extreme example”",
+                on: BY_EYE,
+                ours: Some(Ask {
+                    series: TO_FIVE,
+                    x: 3.0,
+                    path: CRACK_PIXELS,
+                    unit: "pixels in cracks at a threshold of 0.001",
+                }),
+            }]
+        },
         analysis: crack_analysis,
     }
 }

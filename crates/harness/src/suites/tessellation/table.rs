@@ -2,16 +2,18 @@
 
 use crate::show::number::{count, short};
 use crate::show::plot::Axis;
+use crate::suites::figure::{Figure, Quantity, Quote};
+use crate::suites::paths::{
+    AGREEMENT, ANGLE, CRACK_PIXELS, DRAWN, EDGES, FLOOR, FRAME_MS, SEARCHED,
+};
+use crate::suites::results::Results;
+use crate::suites::series::{Ask, Point, Series};
 
 use super::data::{
-    ADAPTIVE, AGREEMENT, ANGLE, BY_EYE, CRACK_PIXELS, DRAWN, EDGES, FLOOR, FRAME_MS, FULL, NONE,
-    PAPERS, SEARCHED, TABLE, THRESHOLD, WHOLE_PIXELS, adaptive, full, named, quantities, series,
-    spared, three_modes, verdict,
+    ADAPTIVE, BY_EYE, FULL, NONE, PAPERS, TABLE, THRESHOLD, WHOLE_PIXELS, adaptive, full,
+    quantities, spared, three_modes, verdict,
 };
 use super::square::floor;
-use crate::suites::figure::{Figure, Quantity, Quote};
-use crate::suites::results::Results;
-use crate::suites::series::{Ask, Point};
 
 /// The size at which full tessellation to level 4 (2.5 million triangles) fits the suite's time.
 const SIZE: [u32; 2] = [320, 240];
@@ -60,23 +62,25 @@ pub fn coarse_and_fine(place: &Place) -> Figure {
         question:
             "Adaptive tessellation should split the coarse models and leave the fine one alone."
                 .to_owned(),
-        axis: named("tessellation", &[NONE, ADAPTIVE, "full, 4 levels"]),
-        series: vec![series(SEARCH, points)],
+        axis: Axis::names("tessellation", [NONE, ADAPTIVE, "full, 4 levels"]),
+        series: vec![Series::new(SEARCH, points)],
         quantities: quantities([Quantity::log(FRAME_MS), Quantity::log(DRAWN)]),
-        quotes: vec![
-            Quote {
-                what: "without tessellation",
-                theirs: "“visibly wrong”",
-                on: BY_EYE,
-                ours: Some(right(SEARCH, 0.0)),
-            },
-            Quote {
-                what: "adaptive",
-                theirs: "“as if … fully tessellated”",
-                on: BY_EYE,
-                ours: Some(right(SEARCH, 1.0)),
-            },
-        ],
+        quotes: const {
+            &[
+                Quote {
+                    what: "without tessellation",
+                    theirs: "“visibly wrong”",
+                    on: BY_EYE,
+                    ours: Some(right(SEARCH, 0.0)),
+                },
+                Quote {
+                    what: "adaptive",
+                    theirs: "“as if … fully tessellated”",
+                    on: BY_EYE,
+                    ours: Some(right(SEARCH, 1.0)),
+                },
+            ]
+        },
         analysis: table_analysis,
     }
 }
@@ -153,38 +157,40 @@ pub fn thresholds(place: &Place) -> Figure {
             "The threshold decides between accuracy and time; up to {LEVELS} levels. At 0 every triangle is \
              split: full tessellation."
         ),
-        axis: named("threshold", &THRESHOLDS),
-        series: vec![series(ADAPTIVE, points)],
+        axis: Axis::names("threshold", THRESHOLDS),
+        series: vec![Series::new(ADAPTIVE, points)],
         quantities: quantities([
             Quantity::log(FRAME_MS),
             Quantity::log(DRAWN),
             Quantity::linear(CRACK_PIXELS),
         ]),
-        quotes: vec![
-            Quote {
-                what: "threshold of 0.1 or larger",
-                theirs: "too high",
-                on: BY_EYE,
-                ours: Some(right(ADAPTIVE, 1.0)),
-            },
-            Quote {
-                what: "threshold of 0.01, the finer end of what is recommended",
-                theirs: "“perfectly acceptable”",
-                on: BY_EYE,
-                ours: Some(right(ADAPTIVE, 3.0)),
-            },
-            Quote {
-                what: "threshold near 0",
-                theirs: "no longer interactive",
-                on: PAPERS,
-                ours: Some(Ask {
-                    series: ADAPTIVE,
-                    x: 7.0,
-                    path: FRAME_MS,
-                    unit: "ms",
-                }),
-            },
-        ],
+        quotes: const {
+            &[
+                Quote {
+                    what: "threshold of 0.1 or larger",
+                    theirs: "too high",
+                    on: BY_EYE,
+                    ours: Some(right(ADAPTIVE, 1.0)),
+                },
+                Quote {
+                    what: "threshold of 0.01, the finer end of what is recommended",
+                    theirs: "“perfectly acceptable”",
+                    on: BY_EYE,
+                    ours: Some(right(ADAPTIVE, 3.0)),
+                },
+                Quote {
+                    what: "threshold near 0",
+                    theirs: "no longer interactive",
+                    on: PAPERS,
+                    ours: Some(Ask {
+                        series: ADAPTIVE,
+                        x: 7.0,
+                        path: FRAME_MS,
+                        unit: "ms",
+                    }),
+                },
+            ]
+        },
         analysis: threshold_analysis,
     }
 }
@@ -253,17 +259,19 @@ pub fn counts(place: &Place) -> Figure {
             Quantity::log(ANGLE).beside(WHOLE_PIXELS),
             Quantity::linear(EDGES),
         ],
-        quotes: vec![Quote {
-            what: "adaptive against full",
-            theirs: "fewer vertices, fewer searches",
-            on: "a diagram",
-            ours: Some(Ask {
-                series: ADAPTIVE,
-                x: LEVELS as f64,
-                path: DRAWN,
-                unit: "triangles at the highest limit",
-            }),
-        }],
+        quotes: const {
+            &[Quote {
+                what: "adaptive against full",
+                theirs: "fewer vertices, fewer searches",
+                on: "a diagram",
+                ours: Some(Ask {
+                    series: ADAPTIVE,
+                    x: LEVELS as f64,
+                    path: DRAWN,
+                    unit: "triangles at the highest limit",
+                }),
+            }]
+        },
         analysis: count_analysis,
     }
 }

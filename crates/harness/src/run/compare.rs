@@ -8,7 +8,7 @@ use glam::DVec2;
 
 use crate::record::Status;
 
-use super::render::Blank;
+use super::render::RowError;
 use super::truth::Truth;
 
 /// What comparing with the truth yields.
@@ -22,7 +22,7 @@ pub struct Compared {
 }
 
 /// Compares a technique's picture and reflection points with the truth.
-pub fn compare(scene: &Scene, truth: &Truth, output: &Output) -> Result<Compared, Blank> {
+pub fn compare(scene: &Scene, truth: &Truth, output: &Output) -> Result<Compared, RowError> {
     let failed = |error: catoptric_metrics::MetricsError| (Status::Failed, error.to_string());
     let options = CompareOptions {
         t_junctions: output.t_junctions,

@@ -8,7 +8,7 @@ use crate::record::Record;
 use super::compare::compare;
 use super::interrupt::interrupted;
 use super::motion::follow;
-use super::render::{Blank, Rendered, render};
+use super::render::{Rendered, RowError, render};
 use super::sampling::time;
 use super::setup::{STEPS_A_ROW, Setup};
 use super::truth::{Truth, trace_reference};
@@ -22,7 +22,7 @@ pub struct Measured<'a, 'g> {
     /// What the techniques are judged by.
     pub truth: &'a Truth,
     /// By row: the technique and its picture, or why there is none.
-    pub rendered: &'a [Result<Rendered<'g>, Blank>],
+    pub rendered: &'a [Result<Rendered<'g>, RowError>],
     /// In the order of the techniques.
     pub rows: &'a [Record],
 }

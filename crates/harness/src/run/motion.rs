@@ -16,14 +16,14 @@ use crate::record::{Status, Steadiness};
 use super::compare::in_view;
 use super::interrupt::interrupted;
 use super::load::size;
-use super::render::{Blank, Rendered, one_line};
+use super::render::{Rendered, RowError, one_line};
 
 /// Follows a technique over `frames` frames of the scene's motion.
 pub fn follow(
-    rendered: &mut Result<Rendered<'_>, Blank>,
+    rendered: &mut Result<Rendered<'_>, RowError>,
     scene: &Scene,
     frames: u32,
-) -> Result<(), Blank> {
+) -> Result<(), RowError> {
     if let Ok(rendered) = rendered {
         rendered.temporal = steadiness(&mut rendered.prepared, scene, frames)?;
     }
@@ -36,7 +36,7 @@ fn steadiness(
     prepared: &mut Prepared<'_>,
     scene: &Scene,
     frames: u32,
-) -> Result<Option<Steadiness>, Blank> {
+) -> Result<Option<Steadiness>, RowError> {
     let failed = |error: &dyn std::error::Error| (Status::Failed, one_line(error));
     let mut errors = Vec::new();
     let (mut evaluations, mut steps) = (Vec::new(), Vec::new());
@@ -56,7 +56,7 @@ fn steadiness(
             steps.extend(output.work.steps);
         }
     }
-    let mut timed = |moving: bool, frames: usize| -> Result<Vec<Option<f64>>, Blank> {
+    let mut timed = |moving: bool, frames: usize| -> Result<Vec<Option<f64>>, RowError> {
         let mut times = Vec::new();
         for frame in 0..frames as u32 {
             let posed = scene.at(if moving { frame } else { 0 });

@@ -32,12 +32,12 @@ impl Rendered<'_> {
     }
 }
 
-/// Why a row has no numbers.
-pub type Blank = (Status, String);
+/// Why a row has no numbers: its status and a reason.
+pub type RowError = (Status, String);
 
 /// Prepares a technique and renders one frame with all layers: the first one, or the second where
 /// a frame helps to find the next, as the timed ones are.
-pub fn render<'g>(gpu: &'g Gpu, spec: &Spec, scene: &Scene) -> Result<Rendered<'g>, Blank> {
+pub fn render<'g>(gpu: &'g Gpu, spec: &Spec, scene: &Scene) -> Result<Rendered<'g>, RowError> {
     if let Support::No(reason) = catoptric_reflect::supports(spec, scene) {
         return Err((Status::NotApplicable, reason));
     }

@@ -9,7 +9,7 @@ use catoptric_reflect::{FrameTime, Prepared, ReflectError};
 use crate::record::Status;
 
 use super::interrupt::interrupted;
-use super::render::{Blank, Rendered, one_line};
+use super::render::{Rendered, RowError, one_line};
 
 /// Frames before the first that counts.
 const WARM_UP: usize = 2;
@@ -58,9 +58,9 @@ fn interleaved(
 /// Times the techniques that could be rendered, in turn, within the budget; the result has an
 /// entry for each of them, in order.
 pub fn time(
-    rendered: &mut [Result<Rendered<'_>, Blank>],
+    rendered: &mut [Result<Rendered<'_>, RowError>],
     budget: Duration,
-) -> Vec<Option<Result<Samples, Blank>>> {
+) -> Vec<Option<Result<Samples, RowError>>> {
     let places: Vec<bool> = rendered.iter().map(Result::is_ok).collect();
     let mut ready: Vec<&mut Prepared<'_>> = rendered
         .iter_mut()

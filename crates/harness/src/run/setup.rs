@@ -12,7 +12,7 @@ use super::compare::Compared;
 use super::interrupt::keep_what_is_finished;
 use super::load::{self, check_size, load_options, open_gpu, parse, size};
 use super::progress::Progress;
-use super::render::{Blank, Rendered};
+use super::render::{Rendered, RowError};
 use super::sampling::Samples;
 use super::{fill, provenance};
 
@@ -143,9 +143,9 @@ impl Setup {
         job: &Job,
         scene: &Scene,
         spec: &Spec,
-        rendered: &Result<Rendered<'_>, Blank>,
-        compared: Result<Compared, Blank>,
-        samples: Option<Result<Samples, Blank>>,
+        rendered: &Result<Rendered<'_>, RowError>,
+        compared: Result<Compared, RowError>,
+        samples: Option<Result<Samples, RowError>>,
     ) -> Record {
         let meta = self.meta.of_job(job, Some(scene));
         let row = Record::empty(&scene.name, &spec.to_string(), size(scene), meta);
@@ -153,7 +153,7 @@ impl Setup {
             adapter: Some(self.adapter()),
             ..row
         };
-        let blank = |row: Record, (status, reason): Blank| row.without(status, reason);
+        let blank = |row: Record, (status, reason): RowError| row.without(status, reason);
         match (rendered, compared, samples.transpose()) {
             (Err(reason), ..) => blank(row, reason.clone()),
             (_, Err(reason), _) | (_, _, Err(reason)) => blank(row, reason),

@@ -3,7 +3,7 @@
 use crate::record::Record;
 
 use super::number::significant;
-use super::plot::{Axis, Plot, Point, Scale, Series, TALL};
+use super::plot::{Axis, Curve, Mark, Plot, Scale, TALL};
 
 /// Median angular error against the time of a frame, a point a row; only the first technique's
 /// points are named, as those of a scene lie side by side.
@@ -12,7 +12,7 @@ pub fn error_against_time(rows: &[Record], techniques: &[String]) -> Plot {
         let times = row.time_ms.as_ref()?;
         let x = times.frame.map_or(times.wall.median, |frame| frame.median);
         let y = row.angular_error_deg?.p50;
-        Some(Point {
+        Some(Mark {
             x,
             y,
             name: if techniques.first() == Some(&row.technique) {
@@ -29,7 +29,7 @@ pub fn error_against_time(rows: &[Record], techniques: &[String]) -> Plot {
             ),
         })
     };
-    let series = |technique: &String| Series {
+    let series = |technique: &String| Curve {
         label: technique.clone(),
         points: rows
             .iter()
@@ -62,7 +62,7 @@ pub fn distribution(rows: &[&Record], techniques: &[String]) -> Plot {
         let points = samples(technique).iter().zip(0..).map(|(time, sample)| {
             // Samples step up and down a little, so that equal times are seen apart.
             let aside = [0.0, 0.2, -0.1, 0.1, -0.2][sample % 5];
-            Point {
+            Mark {
                 x: *time,
                 y: level + aside,
                 name: String::new(),
@@ -73,12 +73,12 @@ pub fn distribution(rows: &[&Record], techniques: &[String]) -> Plot {
                 ),
             }
         });
-        Series {
+        Curve {
             label: technique.clone(),
             points: points.collect(),
         }
     });
-    let series: Vec<Series> = series.collect();
+    let series: Vec<Curve> = series.collect();
     Plot {
         title: "Every timing sample".to_owned(),
         x: Axis::linear("time of a frame (ms), every sample"),

@@ -11,7 +11,7 @@ use serde_json::Value;
 use crate::options::Format;
 use crate::record::{Record, Status};
 use crate::show::number::{or_dash, short, significant};
-use crate::show::plot::{Axis, Plot, Point as Mark, Scale, Series as Marks, TALL};
+use crate::show::plot::{Axis, Curve, Mark, Plot, Scale, TALL};
 use crate::show::table::Table;
 use crate::show::{facts, pictures, words};
 use crate::suites::results::Results;
@@ -190,7 +190,7 @@ fn plots(figure: &Figure, results: &Results<'_>) -> Vec<Plot> {
                     label: format!("{}, {}: {}", series.label, point.scene, significant(y)),
                 })
             });
-            Marks {
+            Curve {
                 label: series.label.clone(),
                 points: marks.collect(),
             }
@@ -211,7 +211,7 @@ fn plots(figure: &Figure, results: &Results<'_>) -> Vec<Plot> {
 }
 
 /// The guide of a quantity at every place where a point has it.
-fn guide(figure: &Figure, quantity: &Quantity, results: &Results<'_>) -> Option<Marks> {
+fn guide(figure: &Figure, quantity: &Quantity, results: &Results<'_>) -> Option<Curve> {
     let guide = quantity.guide?;
     let mut points: Vec<Mark> = Vec::new();
     for point in figure.series.iter().flat_map(|series| &series.points) {
@@ -228,7 +228,7 @@ fn guide(figure: &Figure, quantity: &Quantity, results: &Results<'_>) -> Option<
         }
     }
     points.sort_by(|a, b| a.x.total_cmp(&b.x));
-    Some(Marks {
+    Some(Curve {
         label: guide.label.to_owned(),
         points,
     })

@@ -23,7 +23,7 @@ pub struct Plot {
     /// Upwards.
     pub y: Axis,
     /// In the order of the legend.
-    pub series: Vec<Series>,
+    pub series: Vec<Curve>,
     /// Height without the legend; the width is 640.
     pub height: u32,
     /// Whether the points of a series are joined by a line; at names they stand on stems instead.
@@ -32,16 +32,16 @@ pub struct Plot {
 
 /// Points of one colour.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Series {
+pub struct Curve {
     /// In the legend.
     pub label: String,
     /// Its points, in the order in which they are joined.
-    pub points: Vec<Point>,
+    pub points: Vec<Mark>,
 }
 
 /// A measured value.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Point {
+pub struct Mark {
     /// Along the x axis.
     pub x: f64,
     /// Along the y axis.

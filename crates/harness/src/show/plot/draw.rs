@@ -4,7 +4,7 @@ use anyhow::anyhow;
 use plotters::prelude::*;
 
 use super::axis::{Extent, Scale};
-use super::data::{Plot, Point, SERIES, WIDTH};
+use super::data::{Mark, Plot, SERIES, WIDTH};
 use super::{names, svg};
 
 /// Around every plot.
@@ -16,7 +16,7 @@ const LEFT: u32 = 78;
 struct Shown<'p> {
     series: usize,
     place: (f64, f64),
-    point: &'p Point,
+    point: &'p Mark,
 }
 
 impl Plot {
@@ -175,10 +175,10 @@ fn color(series: usize) -> RGBColor {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::show::plot::{Axis, Series, TALL};
+    use crate::show::plot::{Axis, Curve, TALL};
 
     fn plot(points: &[(f64, f64)]) -> Plot {
-        let point = |&(x, y): &(f64, f64)| Point {
+        let point = |&(x, y): &(f64, f64)| Mark {
             x,
             y,
             name: String::new(),
@@ -188,7 +188,7 @@ mod tests {
             title: "error \"against\" time".to_owned(),
             x: Axis::log("time (ms)"),
             y: Axis::log("error (°)"),
-            series: vec![Series {
+            series: vec![Curve {
                 label: "linear".to_owned(),
                 points: points.iter().map(point).collect(),
             }],

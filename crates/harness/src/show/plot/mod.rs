@@ -11,4 +11,4 @@ mod names;
 mod svg;
 
 pub use axis::{Axis, Scale};
-pub use data::{Plot, Point, SERIES, Series, TALL};
+pub use data::{Curve, Mark, Plot, SERIES, TALL};

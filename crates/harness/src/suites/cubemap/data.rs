@@ -1,4 +1,4 @@
-//! What the figures share: sizes, and where their numbers stand in a record.
+//! What the figures share: sizes, points and quantities.
 
 use crate::suites::figure::Quantity;
 use crate::suites::paths::{

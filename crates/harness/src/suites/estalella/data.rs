@@ -1,4 +1,4 @@
-//! What the figures share: techniques, and where their numbers stand in a record.
+//! What the figures share: techniques.
 
 /// The search as the paper runs it: hidden vertices continued, true virtual depth.
 pub fn search(iterations: u32) -> String {

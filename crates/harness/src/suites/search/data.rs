@@ -1,4 +1,4 @@
-//! What is measured: searches, scenes, and where their numbers stand in a record.
+//! What is measured, searches and scenes, and what the thesis printed.
 
 use crate::suites::figure::Quote;
 use crate::suites::paths::FRAME_MS;

@@ -3,7 +3,7 @@
 //!
 //! How ours is said in Mitsuba's terms:
 //! - An unlit surface is an area emitter whose radiance is its colour, with a BSDF that reflects
-//!   nothing. Emitters are black from behind: see [`super::sides`].
+//!   nothing. Emitters are black from behind: see `sides.rs`.
 //! - A mirror is a `conductor` of material `none`; it is black from behind like ours.
 //! - Sphere and rectangle are Mitsuba's own. An ellipsoid is an instance of a sphere: its plugin
 //!   `ellipsoids` is a hundred times less exact where it is thin and far. Every other curved mirror

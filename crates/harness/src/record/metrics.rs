@@ -1,4 +1,4 @@
-//! The numbers of a record by their paths: the rows of [`super::table`], looked up.
+//! The numbers of a record by their paths: the rows of `table.rs`, looked up.
 
 use std::sync::LazyLock;
 

@@ -28,7 +28,7 @@ pub fn size(scene: &Scene) -> [u32; 2] {
 /// pixel takes some hundred bytes of memory.
 const MOST_PIXELS: u64 = 1 << 25;
 
-/// Refuses a picture that cannot be rendered: sides up to `limit`, [`MOST_PIXELS`] in all.
+/// Refuses a picture that cannot be rendered: sides up to `limit`, `MOST_PIXELS` in all.
 pub fn check_size(size: [u32; 2], limit: u32, whose: &str) -> anyhow::Result<()> {
     let [width, height] = size;
     let too_large = |why: String| {

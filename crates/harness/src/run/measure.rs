@@ -35,7 +35,7 @@ const IN_TURN: usize = 8;
 const STILL: &str = "the scene has no [motion]: there are no frames to follow";
 
 /// Load → trace the reference → render → compare → time → record, for every scene and technique.
-/// `finished` is called after each scene, or each [`IN_TURN`] techniques of it, with the pictures
+/// `finished` is called after each scene, or each `IN_TURN` techniques of it, with the pictures
 /// (`None` where the scene is not available) and with all rows so far.
 pub fn measure(
     setup: &Setup,

@@ -78,7 +78,7 @@ pub struct Studio<'s> {
     pub scene: Option<&'s str>,
     /// How scenes are to be loaded.
     pub common: &'s Common,
-    /// The folder of the page; pictures go into [`crate::show::pictures::FOLDER`] inside it.
+    /// The folder of the page; pictures go into [`crate::output::PICTURES`] inside it.
     pub folder: &'s Path,
 }
 

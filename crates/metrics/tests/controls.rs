@@ -224,7 +224,7 @@ fn one_percent_brighter_trips_colour_by_as_much() {
         test.color
             .pixels_mut()
             .iter_mut()
-            .for_each(|color| *color *= 1.01)
+            .for_each(|color| *color *= 1.01);
     });
     let color = brighter.color.unwrap();
     let reference = frame();
@@ -237,7 +237,7 @@ fn one_percent_brighter_trips_colour_by_as_much() {
         .zip(mask.pixels())
         .filter(|(_, inside)| **inside);
     let mean = of_mask
-        .map(|(color, _)| color.element_sum() as f64)
+        .map(|(color, _)| f64::from(color.element_sum()))
         .sum::<f64>();
     let mean = mean / (3.0 * mirror_pixels());
     assert!(

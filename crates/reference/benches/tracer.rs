@@ -44,7 +44,7 @@ fn build(criterion: &mut Criterion) {
     for scene in scenes() {
         group.throughput(Throughput::Elements(scene.triangle_count() as u64));
         group.bench_function(format!("{}/build", scene.name), |bencher| {
-            bencher.iter(|| Tracer::new(black_box(&scene)))
+            bencher.iter(|| Tracer::new(black_box(&scene)));
         });
     }
     group.finish();
@@ -81,7 +81,7 @@ fn picture(criterion: &mut Criterion) {
         let options = RenderOptions::new([640, 480], Truth::FirstBounce);
         group.throughput(Throughput::Elements(640 * 480));
         group.bench_function(&scene.name, |bencher| {
-            bencher.iter(|| tracer.render(&options))
+            bencher.iter(|| tracer.render(&options));
         });
     }
     group.finish();

@@ -322,7 +322,7 @@ impl<'d> Table<'d> {
             return Err(self.wrong_type(key, value, wanted));
         };
         let mut counts = Vec::new();
-        for row in rows.iter() {
+        for row in rows {
             match row.get_ref() {
                 DeValue::Array(row) if row.len() == N => {
                     let mut numbers = [0; N];

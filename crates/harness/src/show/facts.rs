@@ -46,7 +46,7 @@ pub fn environment(rows: &[Record]) -> Vec<Fact> {
         facts.push(Fact {
             name: name.to_owned(),
             value,
-        })
+        });
     };
     if let Some(adapter) = rows.iter().find_map(|row| row.adapter.as_ref()) {
         let kind = if adapter.software {

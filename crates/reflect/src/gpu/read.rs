@@ -78,7 +78,7 @@ impl Gpu {
 
     fn mapped(&self, staging: &wgpu::Buffer) -> Vec<u8> {
         staging.map_async(wgpu::MapMode::Read, .., |result| {
-            result.expect("a staging buffer can be mapped")
+            result.expect("a staging buffer can be mapped");
         });
         self.wait();
         staging

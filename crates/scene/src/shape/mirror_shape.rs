@@ -91,6 +91,10 @@ pub trait MirrorShape {
 
     /// The one point of that surface in a unit direction from the centre, where it is known
     /// exactly.
+    #[expect(
+        clippy::wrong_self_convention,
+        reason = "the direction is from the centre; nothing is made from it"
+    )]
     fn from_center(&self, direction: DVec3) -> Option<SurfaceHit> {
         self.intersect(self.center(), direction, 0.0)
     }

@@ -8,18 +8,20 @@
 //! Each step is printed before it runs; the first that fails ends the chore with its exit code.
 //! Exit code 3 means that the machine lacks something and it could not be installed.
 
+mod ci;
 mod embree;
 mod setup;
+mod step;
 
-use std::env;
 use std::ffi::OsString;
 use std::path::PathBuf;
-use std::process::{Command, ExitCode};
+use std::process::ExitCode;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use clap::{Parser, Subcommand};
 
 use setup::Need;
+use step::Step;
 
 /// The exit code for a machine that lacks a driver or a compiler.
 const NOT_SET_UP: u8 = 3;
@@ -63,11 +65,13 @@ fn main() -> ExitCode {
 
 /// Runs a chore; the answer is its exit code.
 fn run(chore: Chore) -> Result<u8> {
+    let mut skipped = Vec::new();
     let (needs, mut steps): (&[Need], Vec<Step>) = match &chore {
         Chore::Report { args } => (&[Need::Vulkan], vec![report(args.clone())]),
         Chore::Test => (&[Need::Vulkan, Need::CppCompiler], vec![test()]),
         Chore::Ci => {
-            let mut steps = checks();
+            let (mut steps, lines) = ci::checks();
+            skipped = lines;
             steps.push(test());
             (&[Need::Vulkan, Need::CppCompiler], steps)
         }
@@ -86,6 +90,9 @@ fn run(chore: Chore) -> Result<u8> {
             eprintln!("xtask: `{}` failed with exit code {code}", step.shown());
             return Ok(code);
         }
+    }
+    for line in skipped {
+        eprintln!("xtask: {line}");
     }
     Ok(0)
 }
@@ -116,60 +123,6 @@ fn test() -> Step {
     Step {
         env: Some(("CATOPTRIC_REQUIRE_GPU", "1")),
         ..Step::cargo("test --release --workspace")
-    }
-}
-
-/// What `ci` checks before it tests.
-fn checks() -> Vec<Step> {
-    vec![
-        Step::cargo("fmt --all --check"),
-        Step::cargo("clippy --release --workspace --all-targets -- -D warnings"),
-        Step {
-            env: Some(("RUSTDOCFLAGS", "-Dwarnings")),
-            ..Step::cargo("doc --release --workspace --no-deps")
-        },
-    ]
-}
-
-/// One call of cargo.
-struct Step {
-    env: Option<(&'static str, &'static str)>,
-    args: Vec<OsString>,
-}
-
-impl Step {
-    /// A call with these arguments, separated by blanks.
-    fn cargo(args: &str) -> Self {
-        Self {
-            env: None,
-            args: args.split_whitespace().map(OsString::from).collect(),
-        }
-    }
-
-    /// The command as one would type it.
-    fn shown(&self) -> String {
-        let mut words: Vec<String> = self
-            .env
-            .iter()
-            .map(|(key, value)| format!("{key}={value}"))
-            .collect();
-        words.push("cargo".into());
-        words.extend(self.args.iter().map(|a| a.to_string_lossy().into_owned()));
-        words.join(" ")
-    }
-
-    /// Prints and runs the command; the answer is its exit code (1 if a signal ended it).
-    fn run(&self) -> Result<u8> {
-        eprintln!("xtask: {}", self.shown());
-        let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-        let status = Command::new(cargo)
-            .args(&self.args)
-            .envs(self.env)
-            .status()
-            .with_context(|| format!("cannot run `{}`", self.shown()))?;
-        Ok(status
-            .code()
-            .map_or(1, |code| u8::try_from(code).unwrap_or(1)))
     }
 }
 

@@ -246,7 +246,7 @@ fn files_in(folder: &Path) -> Vec<PathBuf> {
 }
 
 /// Whether a program of this name is on the path.
-fn on_path(name: &str) -> bool {
+pub fn on_path(name: &str) -> bool {
     env::var_os("PATH")
         .is_some_and(|path| env::split_paths(&path).any(|folder| folder.join(name).is_file()))
 }

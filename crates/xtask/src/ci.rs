@@ -1,0 +1,99 @@
+//! What a change must pass before it is tested.
+
+use crate::setup::on_path;
+use crate::step::Step;
+
+/// A check by a program that does not come with Rust: made where it is installed.
+struct Tool {
+    /// The program that must be on the path.
+    program: &'static str,
+    /// The check, as one would type it.
+    check: (&'static str, &'static str),
+    /// How the program is installed.
+    install: &'static str,
+}
+
+/// Spelling, the format of TOML files, licences and sources of dependencies, unused dependencies.
+const TOOLS: [Tool; 4] = [
+    Tool {
+        program: "typos",
+        check: ("typos", ""),
+        install: "cargo install typos-cli",
+    },
+    Tool {
+        program: "taplo",
+        check: ("taplo", "fmt --check"),
+        install: "cargo install taplo-cli",
+    },
+    Tool {
+        program: "cargo-deny",
+        check: ("cargo", "deny check bans licenses sources"),
+        install: "cargo install cargo-deny",
+    },
+    Tool {
+        program: "cargo-machete",
+        check: ("cargo", "machete"),
+        install: "cargo install cargo-machete",
+    },
+];
+
+/// The checks, quick ones first, and a line about each that is skipped.
+pub fn checks() -> (Vec<Step>, Vec<String>) {
+    checks_where(on_path)
+}
+
+/// The checks on a machine that has those programs of which `installed` says so.
+fn checks_where(installed: impl Fn(&str) -> bool) -> (Vec<Step>, Vec<String>) {
+    let mut steps = vec![Step::cargo("fmt --all --check")];
+    let mut skipped = Vec::new();
+    for tool in &TOOLS {
+        let step = Step::of(tool.check.0, tool.check.1);
+        if installed(tool.program) {
+            steps.push(step);
+        } else {
+            skipped.push(format!(
+                "skipped `{}`: {} is not installed ({})",
+                step.shown(),
+                tool.program,
+                tool.install
+            ));
+        }
+    }
+    steps.push(Step::cargo(
+        "clippy --release --workspace --all-targets -- -D warnings",
+    ));
+    steps.push(Step {
+        env: Some(("RUSTDOCFLAGS", "-Dwarnings")),
+        ..Step::cargo("doc --release --workspace --no-deps")
+    });
+    (steps, skipped)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shown(steps: &[Step]) -> Vec<String> {
+        steps.iter().map(Step::shown).collect()
+    }
+
+    #[test]
+    fn a_tool_that_is_installed_checks() {
+        let (steps, skipped) = checks_where(|_| true);
+        assert_eq!(steps.len(), 3 + TOOLS.len());
+        assert!(shown(&steps).contains(&"taplo fmt --check".to_owned()));
+        assert!(skipped.is_empty());
+    }
+
+    #[test]
+    fn a_tool_that_is_missing_is_skipped_by_name() {
+        let (steps, skipped) = checks_where(|program| program != "cargo-machete");
+        assert!(!shown(&steps).contains(&"cargo machete".to_owned()));
+        assert_eq!(
+            skipped,
+            [
+                "skipped `cargo machete`: cargo-machete is not installed (cargo install cargo-machete)"
+            ]
+        );
+    }
+}

@@ -3,6 +3,7 @@
 //! * `report` sets the machine up and writes the comparison report.
 //! * `test` sets the machine up and runs every test.
 //! * `ci` does what a change must pass: formatting, lints, documentation, `test`.
+//! * `new` writes what a new search, refinement or image-order technique starts from.
 //! * `embree` measures Embree beside our ray tracer, on the same rays.
 //!
 //! Each step is printed before it runs; the first that fails ends the chore with its exit code.
@@ -10,9 +11,11 @@
 
 mod ci;
 mod embree;
+mod new;
 mod setup;
 mod step;
 
+use std::env;
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -51,6 +54,13 @@ enum Chore {
     Ci,
     /// Measure Embree beside our ray tracer on the same rays, and check that hits agree
     Embree,
+    /// Write the files and lines that something new starts from: they compile and run
+    New {
+        /// What it is to be
+        kind: new::Kind,
+        /// Its name on the command line, such as `two-steps`
+        name: String,
+    },
 }
 
 fn main() -> ExitCode {
@@ -63,8 +73,21 @@ fn main() -> ExitCode {
     }
 }
 
+/// The root of the tree that `cargo run` runs this program of.
+fn root() -> PathBuf {
+    let here = env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
+    let here = here.unwrap_or_else(|| env!("CARGO_MANIFEST_DIR").into());
+    here.join("../..")
+}
+
 /// Runs a chore; the answer is its exit code.
 fn run(chore: Chore) -> Result<u8> {
+    if let Chore::New { kind, name } = &chore {
+        for path in new::write(&root(), *kind, name)? {
+            println!("{}", path.display());
+        }
+        return Ok(0);
+    }
     let mut skipped = Vec::new();
     let (needs, mut steps): (&[Need], Vec<Step>) = match &chore {
         Chore::Report { args } => (&[Need::Vulkan], vec![report(args.clone())]),
@@ -76,6 +99,7 @@ fn run(chore: Chore) -> Result<u8> {
             (&[Need::Vulkan, Need::CppCompiler], steps)
         }
         Chore::Embree => (&[Need::CppCompiler, Need::Embree], vec![]),
+        Chore::New { .. } => (&[], vec![]),
     };
     if let Err(message) = setup::provide(needs)? {
         eprintln!("xtask: {message}");

@@ -26,7 +26,7 @@ pub(crate) use clock::Timer;
 pub use device::Gpu;
 pub use error::{BuildError, GpuError};
 pub(crate) use pipelines::{
-    RasterEntries, RasterTargets, compute, dispatch_size, module, raster, raster_to,
+    Kernel, RasterEntries, RasterTargets, compute, dispatch_size, module, raster, raster_to,
 };
 pub(crate) use recorder::{Begin, Recorder};
 pub use self_test::SelfTest;

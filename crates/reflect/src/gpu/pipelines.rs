@@ -1,5 +1,7 @@
 //! Pipelines: linked shaders with their entry points, layouts and targets.
 
+use std::ops::Deref;
+
 use super::device::Gpu;
 use super::error::BuildError;
 use super::shaders;
@@ -8,19 +10,30 @@ use super::textures::{DEPTH, FLOAT4};
 /// Most workgroups in one dimension on every adapter.
 const MAX_GROUPS: u32 = 65535;
 
+/// A program of `shaders/`, linked and compiled.
+pub(crate) struct Module {
+    module: wgpu::ShaderModule,
+    text: String,
+}
+
+impl Deref for Module {
+    type Target = wgpu::ShaderModule;
+
+    fn deref(&self) -> &Self::Target {
+        &self.module
+    }
+}
+
 /// Links and compiles a program of `shaders/` with the given features on.
-pub(crate) fn module(
-    gpu: &Gpu,
-    program: &str,
-    features: &[&str],
-) -> Result<wgpu::ShaderModule, BuildError> {
+pub(crate) fn module(gpu: &Gpu, program: &str, features: &[&str]) -> Result<Module, BuildError> {
     let text = shaders::link(program, features).map_err(BuildError::Shader)?;
-    Ok(gpu
+    let module = gpu
         .device
         .create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(program),
-            source: wgpu::ShaderSource::Wgsl(text.into()),
-        }))
+            source: wgpu::ShaderSource::Wgsl(text.as_str().into()),
+        });
+    Ok(Module { module, text })
 }
 
 fn pipeline_layout(gpu: &Gpu, layouts: &[Option<&wgpu::BindGroupLayout>]) -> wgpu::PipelineLayout {
@@ -32,14 +45,47 @@ fn pipeline_layout(gpu: &Gpu, layouts: &[Option<&wgpu::BindGroupLayout>]) -> wgp
         })
 }
 
+/// A compute pipeline, and the size of its workgroups as its shader states it.
+pub(crate) struct Kernel {
+    pipeline: wgpu::ComputePipeline,
+    workgroup: [u32; 3],
+}
+
+impl Deref for Kernel {
+    type Target = wgpu::ComputePipeline;
+
+    fn deref(&self) -> &Self::Target {
+        &self.pipeline
+    }
+}
+
+impl Kernel {
+    /// Workgroups that give at least `count` threads, one after the other: x of a workgroup's size.
+    pub(crate) fn groups(&self, count: u32) -> u32 {
+        count.div_ceil(self.workgroup[0])
+    }
+
+    /// Workgroups in x and y that give at least a thread for each texel of an image.
+    pub(crate) fn groups_over(&self, [width, height]: [u32; 2]) -> [u32; 2] {
+        let [x, y, _] = self.workgroup;
+        [width.div_ceil(x), height.div_ceil(y)]
+    }
+}
+
 /// A compute pipeline; `layouts` are those of groups 0, 1, …, `None` for a group not used.
+///
+/// # Panics
+/// Where the module has no such entry point: a bug.
 pub(crate) fn compute(
     gpu: &Gpu,
-    module: &wgpu::ShaderModule,
+    module: &Module,
     entry: &str,
     layouts: &[Option<&wgpu::BindGroupLayout>],
-) -> wgpu::ComputePipeline {
-    gpu.device
+) -> Kernel {
+    let workgroup = shaders::workgroup_size(&module.text, entry);
+    let workgroup = workgroup.unwrap_or_else(|| panic!("no compute entry point `{entry}`"));
+    let pipeline = gpu
+        .device
         .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some(entry),
             layout: Some(&pipeline_layout(gpu, layouts)),
@@ -47,7 +93,11 @@ pub(crate) fn compute(
             entry_point: Some(entry),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             cache: None,
-        })
+        });
+    Kernel {
+        pipeline,
+        workgroup,
+    }
 }
 
 /// What a raster pipeline draws to.

@@ -102,6 +102,16 @@ fn expanded(text: &str, modules: &[(String, &str)]) -> String {
     lines.join("\n")
 }
 
+/// Threads of a workgroup of an entry point, as the linked text says; `None` if it has no such
+/// compute entry point, or is not valid.
+pub(crate) fn workgroup_size(text: &str, entry: &str) -> Option<[u32; 3]> {
+    let module = naga::front::wgsl::parse_str(text).ok()?;
+    let mut entries = module.entry_points.iter();
+    let found = entries.find(|point| point.name == entry);
+    let found = found.filter(|point| point.stage == naga::ShaderStage::Compute)?;
+    Some(found.workgroup_size)
+}
+
 #[cfg(test)]
 pub(crate) mod tests {
     use std::collections::{BTreeMap, BTreeSet};
@@ -218,6 +228,15 @@ pub(crate) mod tests {
             }
         }
         assert!(faults.is_empty(), "{}", faults.join("\n"));
+    }
+
+    #[test]
+    fn workgroups_have_the_size_that_the_shader_states() {
+        let text = "const SIDE: u32 = 4u; @compute @workgroup_size(2 * SIDE, SIDE) fn idle() {}";
+        assert_eq!(workgroup_size(text, "idle"), Some([8, 4, 1]));
+        assert_eq!(workgroup_size(text, "busy"), None);
+        let drawn = "@fragment fn idle() {}";
+        assert_eq!(workgroup_size(drawn, "idle"), None);
     }
 
     #[test]

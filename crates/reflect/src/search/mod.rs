@@ -13,7 +13,7 @@ mod start;
 use catoptric_scene::Scene;
 
 use crate::error::ReflectError;
-use crate::gpu::{Gpu, Recorder, compute, module};
+use crate::gpu::{Gpu, Kernel, Recorder, compute, module};
 use crate::options::{Options, Settled};
 use crate::stage::Stage;
 use crate::stage::options::{Hidden, SearchOptions};
@@ -125,9 +125,9 @@ impl Account {
 
 /// A search's shader, ready for both variants of a frame.
 struct Pipelines {
-    plain: wgpu::ComputePipeline,
+    plain: Kernel,
     /// Tells what [`Context::account`] asks for.
-    telling: wgpu::ComputePipeline,
+    telling: Kernel,
 }
 
 impl Pipelines {
@@ -165,16 +165,17 @@ impl Pipelines {
         own: &wgpu::BindGroup,
         variant: Variant,
     ) {
+        let kernel = match variant {
+            Variant::AllLayers => &self.telling,
+            Variant::Color => &self.plain,
+        };
         frame.compute("search", |pass| {
-            pass.set_pipeline(match variant {
-                Variant::AllLayers => &self.telling,
-                Variant::Color => &self.plain,
-            });
+            pass.set_pipeline(kernel);
             pass.set_bind_group(0, &stage.world.view_group, &[]);
             pass.set_bind_group(1, on, &[]);
             pass.set_bind_group(2, &points.group, &[]);
             pass.set_bind_group(3, own, &[]);
-            points.run(pass);
+            points.run(pass, kernel);
         });
     }
 }

@@ -7,7 +7,8 @@ use glam::{DVec2, Vec2};
 use super::{Context, Pipelines, Search};
 use crate::error::ReflectError;
 use crate::gpu::{
-    Gpu, Recorder, Slot, compute, group, layout, module, set_uniform, storage_bytes, uniform,
+    Gpu, Kernel, Recorder, Slot, compute, group, layout, module, set_uniform, storage_bytes,
+    uniform,
 };
 use crate::options::words;
 use crate::stage::Stage;
@@ -26,9 +27,6 @@ words! {
         Previous = "previous",
     }
 }
-
-/// Side of the pass's workgroups, in texels.
-const GROUP: u32 = 8;
 
 /// A search by a shader that reads the start texel as its group 3.
 pub(super) struct FromStart {
@@ -88,8 +86,8 @@ struct Starts {
     from_bounds: bool,
     /// What is searched where vertices are continued; else the stage's G-buffer.
     alone: Option<MirrorsAlone>,
-    nearest: wgpu::ComputePipeline,
-    choose: wgpu::ComputePipeline,
+    nearest: Kernel,
+    choose: Kernel,
     mirrors: Vec<StartTexel>,
 }
 
@@ -164,14 +162,14 @@ impl Starts {
             alone.record(frame, &stage.world);
         }
         let mirrors = &self.gbuffer(stage).mirror_groups;
-        let [width, height] = stage.world.size.map(|side| side.div_ceil(GROUP));
         frame.compute("start", |pass| {
             pass.set_bind_group(0, &stage.world.view_group, &[]);
             for (start, mirror) in self.mirrors.iter().zip(mirrors) {
                 pass.set_bind_group(1, mirror, &[]);
                 pass.set_bind_group(2, &start.find, &[]);
-                for pipeline in [&self.nearest, &self.choose] {
-                    pass.set_pipeline(pipeline);
+                for kernel in [&self.nearest, &self.choose] {
+                    let [width, height] = kernel.groups_over(stage.world.size);
+                    pass.set_pipeline(kernel);
                     pass.dispatch_workgroups(width, height, 1);
                 }
             }

@@ -6,7 +6,7 @@ use encase::{ShaderSize, ShaderType, StorageBuffer};
 use glam::{Vec2, Vec3};
 
 use crate::gpu::{
-    Gpu, Slot, dispatch_size, group, layout, set_storage, storage_bytes, storage_zeros,
+    Gpu, Kernel, Slot, dispatch_size, group, layout, set_storage, storage_bytes, storage_zeros,
 };
 
 /// Twin of `Range` in `shared/points.wesl`: which points of a batch are searched.
@@ -54,13 +54,10 @@ impl Found {
     pub const FAILED: u32 = 2;
 }
 
-/// Threads of a search's workgroup; one thread a point.
-const GROUP: u32 = 64;
-
 /// How many workgroups a search of a batch takes.
 #[derive(Clone, Debug)]
 pub(crate) enum Dispatch {
-    /// Known when the frame is recorded.
+    /// As many as so many points take, one thread each.
     Direct(u32),
     /// Written by an earlier pass: three `u32` at this offset.
     Indirect(wgpu::Buffer, u64),
@@ -100,7 +97,7 @@ impl Points {
             warm: 0,
         };
         set_storage(gpu, &range, &all);
-        let dispatch = Dispatch::Direct(count.div_ceil(GROUP));
+        let dispatch = Dispatch::Direct(count);
         Self::with_range(gpu, layout, positions, count, range, dispatch)
     }
 
@@ -137,11 +134,11 @@ impl Points {
         set_storage(gpu, &self.range, &range);
     }
 
-    /// Dispatches one thread a point of the range.
-    pub(crate) fn run(&self, pass: &mut wgpu::ComputePass<'_>) {
+    /// Dispatches one thread of `kernel` for each point of the range.
+    pub(crate) fn run(&self, pass: &mut wgpu::ComputePass<'_>, kernel: &Kernel) {
         match &self.dispatch {
-            Dispatch::Direct(groups) => {
-                let [x, y] = dispatch_size(*groups);
+            Dispatch::Direct(count) => {
+                let [x, y] = dispatch_size(kernel.groups(*count));
                 pass.dispatch_workgroups(x, y, 1);
             }
             Dispatch::Indirect(buffer, offset) => {

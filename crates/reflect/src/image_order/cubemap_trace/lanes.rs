@@ -5,19 +5,18 @@
 use super::march;
 use super::options::{Agreement, CubemapTrace};
 use crate::error::ReflectError;
-use crate::gpu::{Begin, Gpu, Recorder, Slot, compute, group, layout, module, storage_zeros, view};
+use crate::gpu::{
+    Begin, Gpu, Kernel, Recorder, Slot, compute, group, layout, module, storage_zeros, view,
+};
 use crate::image_order::draw_reflections;
 use crate::stage::Stage;
 use crate::stage::variant::Variant;
 
-/// Side of the listing pass's workgroups, in pixels.
-const GROUP: u32 = 8;
-
 /// The passes `list` and `trace`.
 pub(crate) struct Lanes {
-    reset: wgpu::ComputePipeline,
-    gather: wgpu::ComputePipeline,
-    trace: wgpu::ComputePipeline,
+    reset: Kernel,
+    gather: Kernel,
+    trace: Kernel,
     /// Workgroups in x, y, z; number of pixels; the pixels of one mirror.
     list: wgpu::Buffer,
     write_list: wgpu::BindGroup,
@@ -104,7 +103,7 @@ impl Lanes {
     ) {
         draw_reflections(frame, "clear", stage, variant, Begin::Clear, None, |_| {});
         frame.render("clear", &[effort], Begin::Clear, None, |_| {});
-        let [width, height] = stage.world.size.map(|side| side.div_ceil(GROUP));
+        let [width, height] = self.gather.groups_over(stage.world.size);
         for (own, mirror) in groups.iter().zip(&stage.gbuffer.mirror_groups) {
             frame.compute("list", |pass| {
                 pass.set_bind_group(0, &stage.world.view_group, &[]);

@@ -3,18 +3,15 @@
 
 use crate::diagnostics::DistanceLevel;
 use crate::error::ReflectError;
-use crate::gpu::{Gpu, Recorder, Slot, compute, group, layout, module, texture_array};
+use crate::gpu::{Gpu, Kernel, Recorder, Slot, compute, group, layout, module, texture_array};
 use crate::image_order::cubemaps::{CubeMaps, FACES};
-
-/// Side of the pass's workgroups, in cells.
-const GROUP: u32 = 8;
 
 /// Levels above the single texels of all faces of a set of maps.
 pub(crate) struct Pyramid {
     /// (least, greatest) a cell; mip level 0 has half the texels of a face a side.
     pub texture: wgpu::Texture,
-    from_texels: wgpu::ComputePipeline,
-    from_cells: wgpu::ComputePipeline,
+    from_texels: Kernel,
+    from_cells: Kernel,
     groups: Vec<wgpu::BindGroup>,
 }
 
@@ -91,15 +88,15 @@ impl Pyramid {
         let layers = self.texture.depth_or_array_layers();
         debug_assert_eq!(layers % FACES, 0);
         for (group, level) in self.groups.iter().zip(0..) {
-            let groups = (self.texture.width() >> level).div_ceil(GROUP);
+            let kernel = match level {
+                0 => &self.from_texels,
+                _ => &self.from_cells,
+            };
+            let [x, y] = kernel.groups_over([self.texture.width() >> level; 2]);
             frame.compute("pyramid", |pass| {
-                pass.set_pipeline(if level == 0 {
-                    &self.from_texels
-                } else {
-                    &self.from_cells
-                });
+                pass.set_pipeline(kernel);
                 pass.set_bind_group(0, group, &[]);
-                pass.dispatch_workgroups(groups, groups, layers);
+                pass.dispatch_workgroups(x, y, layers);
             });
         }
     }

@@ -15,7 +15,9 @@ use catoptric_frame::Work;
 
 use super::{ImageOrder, Recipe};
 use crate::error::ReflectError;
-use crate::gpu::{Gpu, Recorder, Slot, compute, group, layout, module, storage_zeros, view};
+use crate::gpu::{
+    Gpu, Kernel, Recorder, Slot, compute, group, layout, module, storage_zeros, view,
+};
 use crate::options::{options, words};
 use crate::stage::Stage;
 use crate::stage::variant::Variant;
@@ -23,9 +25,6 @@ use crate::technique::{Built, Info, Named, Properties};
 
 use hardware::Hardware;
 use wide::Wide;
-
-/// Side of a workgroup in pixels.
-const GROUP: u32 = 8;
 
 words! {
     /// What goes through the hierarchy.
@@ -91,8 +90,8 @@ impl Recipe for RayTrace {
 /// The pass `trace`, for all mirror pixels or for those that another technique leaves open.
 pub(crate) struct Rays {
     layout: wgpu::BindGroupLayout,
-    trace: wgpu::ComputePipeline,
-    counting: wgpu::ComputePipeline,
+    trace: Kernel,
+    counting: Kernel,
     structure: Structure,
     every_frame: bool,
     /// Nodes and triangles tested, a pair of `u32` a pixel.
@@ -184,18 +183,20 @@ impl Rays {
         Ok(())
     }
 
-    /// A pass of so many workgroups.
+    /// A pass with a thread for each of so many pixels, from the image's corner.
     fn dispatch(
         &self,
         frame: &mut Recorder<'_>,
         (name, stage, variant): (&str, &Stage, Variant),
-        [width, height]: [u32; 2],
+        pixels: [u32; 2],
     ) {
+        let kernel = match variant {
+            Variant::AllLayers => &self.counting,
+            Variant::Color => &self.trace,
+        };
+        let [width, height] = kernel.groups_over(pixels);
         frame.compute(name, |pass| {
-            pass.set_pipeline(match variant {
-                Variant::AllLayers => &self.counting,
-                Variant::Color => &self.trace,
-            });
+            pass.set_pipeline(kernel);
             pass.set_bind_group(0, &stage.world.view_group, &[]);
             pass.set_bind_group(1, &stage.gbuffer.mirror_groups[0], &[]);
             pass.set_bind_group(2, &stage.world.surface_group, &[]);
@@ -253,8 +254,7 @@ impl ImageOrder for Rays {
             // The stamp at the end of a pass that uses the structure is the end of its build.
             self.dispatch(frame, ("build", stage, variant), [1, 1]);
         }
-        let groups = stage.world.size.map(|side| side.div_ceil(GROUP));
-        self.dispatch(frame, ("trace", stage, variant), groups);
+        self.dispatch(frame, ("trace", stage, variant), stage.world.size);
     }
 
     /// Nodes as `node_tests`, triangles as `evaluations`; hardware does not tell.

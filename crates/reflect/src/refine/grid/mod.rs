@@ -16,7 +16,9 @@ use glam::{DVec3, Vec3};
 
 use super::{Context, Recipe, Refine};
 use crate::error::ReflectError;
-use crate::gpu::{Gpu, Recorder, Slot, compute, group, layout, module, storage, storage_bytes};
+use crate::gpu::{
+    Gpu, Kernel, Recorder, Slot, compute, group, layout, module, storage, storage_bytes,
+};
 use crate::options::options;
 use crate::search::Search;
 use crate::stage::Stage;
@@ -95,7 +97,7 @@ struct Mesh {
 /// The refinement, ready for a scene.
 struct Interpolation {
     raster: Raster,
-    interpolate: wgpu::ComputePipeline,
+    interpolate: Kernel,
     layout: wgpu::BindGroupLayout,
     points_layout: wgpu::BindGroupLayout,
     /// One an object.
@@ -324,7 +326,7 @@ impl Refine for Interpolation {
             pass.set_pipeline(&self.interpolate);
             pass.set_bind_group(0, &world.view_group, &[]);
             pass.set_bind_group(1, &on_mirror.interpolate, &[]);
-            on_mirror.interpolated.run(pass);
+            on_mirror.interpolated.run(pass, &self.interpolate);
         });
         let found = &on_mirror.draw;
         self.raster

@@ -2,10 +2,9 @@
 
 use encase::ShaderSize;
 
-use super::kernels::GROUP;
 use super::plan::Plan;
 use super::records::{Level, Piece, Totals};
-use crate::gpu::{Gpu, storage_bytes, storage_zeros};
+use crate::gpu::{Gpu, Kernel, storage_bytes, storage_zeros};
 
 /// Distance between the [`Level`] records, bytes: where every device lets a binding begin.
 pub(super) const LEVEL_STRIDE: u64 = 256;
@@ -38,8 +37,8 @@ pub(super) struct Buffers {
 }
 
 impl Buffers {
-    /// `level`: how often a triangle may be split.
-    pub(super) fn new(gpu: &Gpu, level: u32, plan: Plan) -> Self {
+    /// `level`: how often a triangle may be split; `classify`: the kernel that leaves a sum a workgroup.
+    pub(super) fn new(gpu: &Gpu, level: u32, plan: Plan, classify: &Kernel) -> Self {
         let last = level.saturating_sub(1);
         let worked_on = if level == 0 { 0 } else { plan.at(last) };
         let before = plan.at(last.saturating_sub(1));
@@ -54,7 +53,7 @@ impl Buffers {
             levels: storage_zeros(gpu, LEVEL_STRIDE * u64::from(level + 1)),
             totals: storage_zeros(gpu, Totals::SHADER_SIZE.get()),
             ranks: records::<u32>(gpu, worked_on),
-            sums: records::<u32>(gpu, worked_on.div_ceil(GROUP)),
+            sums: records::<u32>(gpu, classify.groups(worked_on)),
             positions: storage_zeros(gpu, u64::from(plan.points()) * 16),
             range: storage_bytes(gpu, &[0; 16]),
             dispatch: storage_zeros(gpu, 12),

@@ -2,19 +2,16 @@
 
 use super::rule::Rule;
 use crate::error::ReflectError;
-use crate::gpu::{Gpu, Slot, compute, group, layout, module};
+use crate::gpu::{Gpu, Kernel, Slot, compute, group, layout, module};
 use crate::refine::Context;
 
-/// Threads of a workgroup, one a triangle.
-pub(super) const GROUP: u32 = 256;
-
-/// A kernel and the layout of its group 3.
-pub(super) struct Kernel {
-    pub pipeline: wgpu::ComputePipeline,
+/// A kernel of the loop and the layout of its group 3.
+pub(super) struct Step {
+    pub kernel: Kernel,
     own_layout: wgpu::BindGroupLayout,
 }
 
-impl Kernel {
+impl Step {
     /// Its group 3.
     pub(super) fn group(
         &self,
@@ -27,14 +24,14 @@ impl Kernel {
 
 /// The entry points of `tessellation.wesl` in the order in which they run, and of `tally.wesl`.
 pub(super) struct Kernels {
-    pub begin: Kernel,
-    pub classify: Kernel,
-    pub scan: Kernel,
-    pub split: Kernel,
+    pub begin: Step,
+    pub classify: Step,
+    pub scan: Step,
+    pub split: Step,
     /// The same for the last level.
-    pub split_last: wgpu::ComputePipeline,
-    pub judge: Kernel,
-    pub tally: Kernel,
+    pub split_last: Kernel,
+    pub judge: Step,
+    pub tally: Step,
     /// Of group 2 of `classify` and `judge`.
     pub answers_layout: wgpu::BindGroupLayout,
     /// Of group 2 of `split`.
@@ -57,8 +54,8 @@ impl Kernels {
                 let own_layout = layout(gpu, entry, slots);
                 let [view, mirror, shared] = others;
                 let layouts = [view, mirror, shared, Some(&own_layout)];
-                Kernel {
-                    pipeline: compute(gpu, module, entry, &layouts),
+                Step {
+                    kernel: compute(gpu, module, entry, &layouts),
                     own_layout,
                 }
             };

@@ -4,7 +4,7 @@ use encase::{ShaderSize, StorageBuffer};
 use glam::{Vec3, Vec4};
 
 use super::buffers::{Buffers, DRAW, LEVEL_STRIDE};
-use super::kernels::{GROUP, Kernels};
+use super::kernels::Kernels;
 use super::plan::Plan;
 use super::records::{Chunk, Level, Piece, Settings, Totals};
 use super::rule::Rule;
@@ -68,7 +68,8 @@ impl Passes {
             level: rule.level,
         };
         let settings = uniform(gpu, &settings);
-        let buffers = Buffers::new(gpu, rule.level, plan);
+        let kernels = Kernels::new(context, rule)?;
+        let buffers = Buffers::new(gpu, rule.level, plan, &kernels.classify.kernel);
         let points = Points::with_range(
             gpu,
             context.points_layout,
@@ -77,7 +78,6 @@ impl Passes {
             buffers.range.clone(),
             Dispatch::Indirect(buffers.dispatch.clone(), 0),
         );
-        let kernels = Kernels::new(context, rule)?;
         let chunks = plan.chunks().map(|[first, count]| {
             let chunk = uniform(gpu, &Chunk { first, count });
             let resources = [
@@ -87,7 +87,7 @@ impl Passes {
                 settings.as_entire_binding(),
                 buffers.totals.as_entire_binding(),
             ];
-            let groups = count.div_ceil(GROUP);
+            let groups = kernels.begin.kernel.groups(count);
             (groups, kernels.begin.group(gpu, &resources))
         });
         let answers = originals.batches.iter().map(|batch| {
@@ -201,7 +201,7 @@ impl Passes {
         frame.compute("refine", |pass| {
             let (groups, own) = &self.chunks[chunk];
             let [x, y] = dispatch_size(*groups);
-            pass.set_pipeline(&self.kernels.begin.pipeline);
+            pass.set_pipeline(&self.kernels.begin.kernel);
             pass.set_bind_group(2, &stage.world.surface_group, &[]);
             pass.set_bind_group(3, own, &[]);
             pass.dispatch_workgroups(x, y, 1);
@@ -213,17 +213,17 @@ impl Passes {
                 pass.set_bind_group(1, &stage.gbuffer.mirror_groups[mirror], &[]);
                 pass.set_bind_group(2, &self.answers[mirror], &[]);
                 pass.set_bind_group(3, classify, &[]);
-                pass.set_pipeline(&self.kernels.classify.pipeline);
+                pass.set_pipeline(&self.kernels.classify.kernel);
                 pass.dispatch_workgroups_indirect(&self.buffers.levels, groups);
                 pass.set_bind_group(3, scan, &[]);
-                pass.set_pipeline(&self.kernels.scan.pipeline);
+                pass.set_pipeline(&self.kernels.scan.kernel);
                 pass.dispatch_workgroups(1, 1, 1);
                 pass.set_bind_group(2, &self.vertices, &[]);
                 pass.set_bind_group(3, split, &[]);
                 pass.set_pipeline(if level + 1 == self.level {
                     &self.kernels.split_last
                 } else {
-                    &self.kernels.split.pipeline
+                    &self.kernels.split.kernel
                 });
                 pass.dispatch_workgroups_indirect(&self.buffers.levels, groups);
             });
@@ -231,8 +231,8 @@ impl Passes {
             if counts {
                 frame.compute("count", |pass| {
                     pass.set_bind_group(3, &self.tallied, &[]);
-                    pass.set_pipeline(&self.kernels.tally.pipeline);
-                    self.points.run(pass);
+                    pass.set_pipeline(&self.kernels.tally.kernel);
+                    self.points.run(pass, &self.kernels.tally.kernel);
                 });
             }
         }
@@ -242,7 +242,7 @@ impl Passes {
                 pass.set_bind_group(1, &stage.gbuffer.mirror_groups[mirror], &[]);
                 pass.set_bind_group(2, &self.answers[mirror], &[]);
                 pass.set_bind_group(3, &self.judged, &[]);
-                pass.set_pipeline(&self.kernels.judge.pipeline);
+                pass.set_pipeline(&self.kernels.judge.kernel);
                 let groups = LEVEL_STRIDE * u64::from(self.level);
                 pass.dispatch_workgroups_indirect(&self.buffers.levels, groups);
             });

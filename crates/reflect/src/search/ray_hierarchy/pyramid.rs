@@ -1,11 +1,10 @@
 //! The pyramid of spheres and cones over the reflected rays of one mirror (Szabo 2013, Alg. 4.1).
 
 use crate::error::ReflectError;
-use crate::gpu::{Gpu, Recorder, Slot, compute, group, layout, level_view, module, pyramid};
+use crate::gpu::{
+    Gpu, Kernel, Recorder, Slot, compute, group, layout, level_view, module, pyramid,
+};
 use crate::stage::Stage;
-
-/// Side of the workgroups, in texels.
-const GROUP: u32 = 8;
 
 /// Two square textures with all levels, and the pass that fills them.
 pub(crate) struct Pyramid {
@@ -13,8 +12,8 @@ pub(crate) struct Pyramid {
     pub spheres: wgpu::Texture,
     /// Unit direction and half angle in radians; −1 likewise.
     pub cones: wgpu::Texture,
-    base: wgpu::ComputePipeline,
-    bound: wgpu::ComputePipeline,
+    base: Kernel,
+    bound: Kernel,
     /// By level, to be written.
     written: Vec<wgpu::BindGroup>,
     /// By level, to be read for the one above.
@@ -73,18 +72,21 @@ impl Pyramid {
 
     /// Records the pass `hierarchy`: the reflected rays of `mirror` (an index), then level by level.
     pub(crate) fn record(&self, frame: &mut Recorder<'_>, stage: &Stage, mirror: usize) {
-        let groups = |level: usize| (self.spheres.width() >> level).div_ceil(GROUP);
+        let groups =
+            |kernel: &Kernel, level: usize| kernel.groups_over([self.spheres.width() >> level; 2]);
         frame.compute("hierarchy", |pass| {
             pass.set_pipeline(&self.base);
             pass.set_bind_group(0, &stage.world.view_group, &[]);
             pass.set_bind_group(1, &stage.gbuffer.mirror_groups[mirror], &[]);
             pass.set_bind_group(2, &self.written[0], &[]);
-            pass.dispatch_workgroups(groups(0), groups(0), 1);
+            let [x, y] = groups(&self.base, 0);
+            pass.dispatch_workgroups(x, y, 1);
             pass.set_pipeline(&self.bound);
             for level in 1..self.written.len() {
                 pass.set_bind_group(2, &self.written[level], &[]);
                 pass.set_bind_group(3, &self.read[level - 1], &[]);
-                pass.dispatch_workgroups(groups(level), groups(level), 1);
+                let [x, y] = groups(&self.bound, level);
+                pass.dispatch_workgroups(x, y, 1);
             }
         });
     }

@@ -13,11 +13,36 @@ pub(crate) struct Geometry {
     pub triangles: Vec<[u32; 3]>,
     /// A corner each, like `uvs` and `colors`; empty where there are none.
     pub normals: Vec<[DVec3; 3]>,
+    /// Corners that have no normal although others have; empty where all have.
+    pub bare: Vec<[bool; 3]>,
+    /// How corners get the normals that they lack, a triangle each; empty where all are flat.
+    pub smoothing: Vec<Smoothing>,
     pub uvs: Vec<[Vec2; 3]>,
     pub colors: Vec<[Vec3; 3]>,
     /// A triangle each; empty where all use the first of `materials`.
     pub material: Vec<u32>,
     pub materials: Vec<Material>,
+}
+
+/// With which triangles one shares its normals, where they meet.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub(crate) enum Smoothing {
+    /// Nothing is said: with none in an object, in a mirror with all of which nothing is said.
+    #[default]
+    Unsaid,
+    /// With none.
+    Flat,
+    /// With those of the same number.
+    Group(u32),
+}
+
+/// What a mesh is made for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Purpose {
+    /// It may do without normals.
+    Object,
+    /// It needs a normal at every corner, and is curved where nothing else is said.
+    Mirror,
 }
 
 /// An invertible affine map: scale, then rotation, then translation.
@@ -95,30 +120,30 @@ impl Geometry {
 
     /// The mesh in world space, once for each of `copies`. Positions equal after the transform
     /// become one, collapsed triangles and (where there are triangles) unused positions go.
-    pub(crate) fn into_mesh(self, copies: &[Transform]) -> Result<Mesh, String> {
+    pub(crate) fn into_mesh(self, copies: &[Transform], purpose: Purpose) -> Result<Mesh, String> {
         let mut used = vec![self.triangles.is_empty(); self.positions.len()];
         self.triangles
             .iter()
             .flatten()
             .for_each(|index| used[*index as usize] = true);
-        let mut mesh = Mesh::default();
-        let mut seen = HashMap::new();
+        let mut built = Built::default();
         for transform in copies {
-            self.copy(transform, &used, &mut seen, &mut mesh)?;
+            self.copy(transform, &used, &mut built)?;
         }
+        let mut mesh = built.mesh;
         mesh.materials = self.materials;
-        mesh.repair_normals();
+        mesh.complete_normals(&built.bare, &built.smoothing, purpose);
         Ok(mesh)
     }
 
-    /// Adds a transformed copy to a mesh; `seen` has the indices of its positions.
-    fn copy(
-        &self,
-        transform: &Transform,
-        used: &[bool],
-        seen: &mut HashMap<[u32; 3], u32>,
-        mesh: &mut Mesh,
-    ) -> Result<(), String> {
+    /// Adds a transformed copy to a mesh.
+    fn copy(&self, transform: &Transform, used: &[bool], built: &mut Built) -> Result<(), String> {
+        let Built {
+            mesh,
+            indices,
+            bare,
+            smoothing,
+        } = built;
         let flip = transform.linear.determinant() < 0.0;
         let to_normal = transform.linear.inverse().transpose();
         let mut merged = vec![0; self.positions.len()];
@@ -128,7 +153,7 @@ impl Geometry {
             if !world.is_finite() {
                 return Err(format!("vertex {} is not finite", index + 1));
             }
-            merged[index] = *seen
+            merged[index] = *indices
                 .entry(world.to_array().map(f32::to_bits))
                 .or_insert_with(|| {
                     mesh.positions.push(world);
@@ -146,10 +171,15 @@ impl Geometry {
             mesh.material
                 .push(self.material.get(index).copied().unwrap_or(0));
             if let Some(normals) = self.normals.get(index) {
-                let world =
-                    normals.map(|normal| (to_normal * normal).normalize_or_zero().as_vec3());
+                let world = normals.map(|normal| (to_normal * normal).try_normalize());
+                let lacks = self.bare.get(index).copied().unwrap_or_default();
+                let none = [0, 1, 2].map(|corner| lacks[corner] || world[corner].is_none());
+                let world = world.map(|normal| normal.unwrap_or(DVec3::ZERO).as_vec3());
                 mesh.normals.push(turned(world, flip));
+                bare.push(turned(none, flip));
             }
+            let group = self.smoothing.get(index).copied();
+            smoothing.push(group.unwrap_or(Smoothing::Flat));
             mesh.uvs
                 .extend(self.uvs.get(index).map(|uvs| turned(*uvs, flip)));
             mesh.colors
@@ -157,6 +187,18 @@ impl Geometry {
         }
         Ok(())
     }
+}
+
+/// A mesh to which copies are added.
+#[derive(Default)]
+struct Built {
+    mesh: Mesh,
+    /// Of its positions, by their bits.
+    indices: HashMap<[u32; 3], u32>,
+    /// Corners whose normal is not known; empty where none is.
+    bare: Vec<[bool; 3]>,
+    /// A triangle each.
+    smoothing: Vec<Smoothing>,
 }
 
 fn turned<T>([a, b, c]: [T; 3], flip: bool) -> [T; 3] {
@@ -170,30 +212,55 @@ impl Mesh {
         (b - a).cross(c - a)
     }
 
-    /// Zero normals of a file become geometric ones.
-    fn repair_normals(&mut self) {
-        for index in 0..self.normals.len() {
-            if self.normals[index]
-                .iter()
-                .any(|normal| normal.length_squared() < 0.5)
-            {
-                let face = self
-                    .area_vector(&self.triangles[index])
-                    .normalize_or(DVec3::Y)
-                    .as_vec3();
-                for normal in &mut self.normals[index] {
-                    if normal.length_squared() < 0.5 {
-                        *normal = face;
-                    }
-                }
+    /// Gives corners the normals that they lack: by their smoothing, or else those of their
+    /// triangles. Where nothing has a normal and nothing is smooth, an object stays without.
+    fn complete_normals(&mut self, bare: &[[bool; 3]], smoothing: &[Smoothing], purpose: Purpose) {
+        let smooth = |triangle: usize| match smoothing[triangle] {
+            Smoothing::Flat => None,
+            Smoothing::Unsaid => (purpose == Purpose::Mirror).then_some(Smoothing::Unsaid),
+            group @ Smoothing::Group(_) => Some(group),
+        };
+        let triangles = 0..self.triangles.len();
+        let none = self.normals.is_empty();
+        if none && purpose == Purpose::Object && triangles.clone().all(|t| smooth(t).is_none()) {
+            return;
+        }
+        let lacks = |triangle: usize| match bare.get(triangle) {
+            Some(corners) => *corners,
+            None => [none; 3],
+        };
+        if triangles
+            .clone()
+            .all(|triangle| lacks(triangle) == [false; 3])
+        {
+            return;
+        }
+        let sums = self.smooth_sums(smooth);
+        self.normals.resize(self.triangles.len(), [Vec3::ZERO; 3]);
+        for triangle in triangles {
+            let corners = self.triangles[triangle];
+            let lacks = lacks(triangle);
+            for corner in (0..3).filter(|corner| lacks[*corner]) {
+                let shared = smooth(triangle)
+                    .and_then(|group| sums.get(&(corners[corner], group)))
+                    .and_then(|sum| sum.try_normalize());
+                let normal = shared.unwrap_or_else(|| self.face_normal(&corners));
+                self.normals[triangle][corner] = normal.as_vec3();
             }
         }
     }
 
-    /// Replaces all normals by smooth ones: face normals at each position, weighted by angle.
-    pub(crate) fn smooth_normals(&mut self) {
-        let mut sums = vec![DVec3::ZERO; self.positions.len()];
-        for triangle in &self.triangles {
+    /// For each position and each group of triangles that meet there, the sum of their normals,
+    /// weighted by the angles of their corners.
+    fn smooth_sums(
+        &self,
+        smooth: impl Fn(usize) -> Option<Smoothing>,
+    ) -> HashMap<(u32, Smoothing), DVec3> {
+        let mut sums = HashMap::new();
+        for (index, triangle) in self.triangles.iter().enumerate() {
+            let Some(group) = smooth(index) else {
+                continue;
+            };
             let normal = self.area_vector(triangle).normalize_or_zero();
             for corner in 0..3 {
                 let [here, next, previous] = [0, 1, 2].map(|offset| {
@@ -201,17 +268,16 @@ impl Mesh {
                 });
                 let angle = (next - here).angle_between(previous - here);
                 if angle.is_finite() {
-                    sums[triangle[corner] as usize] += angle * normal;
+                    *sums.entry((triangle[corner], group)).or_insert(DVec3::ZERO) += angle * normal;
                 }
             }
         }
-        let normal = |index: u32| sums[index as usize].normalize_or_zero().as_vec3();
-        self.normals = self
-            .triangles
-            .iter()
-            .map(|corners| corners.map(normal))
-            .collect();
-        self.repair_normals();
+        sums
+    }
+
+    /// The normal of a flat triangle, as its corners run.
+    fn face_normal(&self, triangle: &[u32; 3]) -> DVec3 {
+        self.area_vector(triangle).normalize_or(DVec3::Y)
     }
 
     /// Replaces all normals by those of the flat triangles, as their corners run.
@@ -219,7 +285,7 @@ impl Mesh {
         self.normals = self
             .triangles
             .iter()
-            .map(|triangle| [self.area_vector(triangle).normalize_or(DVec3::Y).as_vec3(); 3])
+            .map(|triangle| [self.face_normal(triangle).as_vec3(); 3])
             .collect();
     }
 

@@ -32,6 +32,7 @@ mod file;
 mod geometry;
 mod hash;
 mod load;
+mod loading;
 pub mod mesh;
 pub mod mirror;
 pub mod motion;
@@ -42,6 +43,7 @@ mod primitives;
 mod random;
 pub mod shape;
 mod text;
+mod texture;
 
 pub use camera::{Camera, Fov, View};
 pub use error::SceneError;
@@ -75,6 +77,9 @@ pub struct Scene {
     /// SHA-256 (hex) of all that influences the picture: geometry, colours, camera. Motion does
     /// not: each frame that [`Scene::at`] gives has a hash of its own.
     pub hash: String,
+    /// What is odd in the files that it was loaded from, though nothing keeps it from loading: one
+    /// line each, with file and line.
+    pub warnings: Vec<String>,
 }
 
 impl Scene {

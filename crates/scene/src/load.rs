@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::error::suggest;
 use crate::file::{Origin, read};
+use crate::loading::Loading;
 use crate::{Scene, SceneError, builtin};
 
 /// How to load a scene.
@@ -22,11 +23,12 @@ pub fn open(name_or_path: &str, options: &LoadOptions) -> Result<Scene, SceneErr
         let file = &format!("{name_or_path}.toml");
         return read(
             &text,
-            &Origin {
+            Origin {
                 name: name_or_path,
                 file,
                 folder: None,
                 options,
+                loading: Loading::default(),
             },
         );
     }
@@ -51,11 +53,12 @@ pub fn open(name_or_path: &str, options: &LoadOptions) -> Result<Scene, SceneErr
     let folder = Some(path.parent().unwrap_or(Path::new("")).to_owned());
     read(
         &text,
-        &Origin {
+        Origin {
             name: &stem,
             file: name_or_path,
             folder,
             options,
+            loading: Loading::default(),
         },
     )
 }

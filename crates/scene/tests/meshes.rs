@@ -55,17 +55,6 @@ fn relative_indices_normals_and_texture_coordinates() {
 }
 
 #[test]
-fn normals_that_some_corners_lack_are_left_out() {
-    let obj = format!("{SQUARE}vn 0 0 1\nf 1//1 2//1 3//1\nf 1 3 4\n");
-    assert!(
-        with_obj(&obj, MESH).unwrap().objects[0]
-            .mesh
-            .normals
-            .is_empty()
-    );
-}
-
-#[test]
 fn equal_positions_are_one_and_minus_zero_is_zero() {
     let obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv -0 -0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 4 5 6\nf 1 4 6\n";
     let mesh = &with_obj(obj, MESH).unwrap().objects[0].mesh;
@@ -282,8 +271,16 @@ fn what_is_wrong_with_an_obj_is_told_with_its_line() {
             "a.obj:5: texture coordinate index 2",
         ),
         (
-            "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1//1 2//1 3//1\n",
-            "a.obj:4: normal index 1",
+            "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1//1 2//2 3//1\nvn 0 0 1\n",
+            "a.obj:4: normal index 2 is out of range: there are 1",
+        ),
+        (
+            "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1//-1 2//1 3//1\nvn 0 0 1\n",
+            "a.obj:4: normal index -1",
+        ),
+        (
+            "s some\n",
+            "a.obj:1: `s` must be the number of a smoothing group or `off`",
         ),
         (
             "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\n",
@@ -296,7 +293,6 @@ fn what_is_wrong_with_an_obj_is_told_with_its_line() {
         ("v 0 0 0\nvt # u\n", "a.obj:2: `vt` needs a number"),
         ("v 0 0 0\nf 1 1 1/1/1/1\n", "a.obj:2: `1/1/1/1` is no face"),
         ("v 0 0 0\nf 1 1 1///1\n", "a.obj:2: `1///1` is no face"),
-        ("v 0 0 0\nusemtl\n", "a.obj:2: `usemtl` names no"),
         ("v 0 0 0\n\0\n", "a.obj: is binary"),
         ("v 0 0 \\\nx\nv 0 0 0\n", "a.obj:1: `v` has a value"),
         (

@@ -8,11 +8,13 @@ use catoptric_scene::Scene;
 use crate::exit::{Outcome, bad_input};
 use crate::options::Common;
 use crate::output::check_writable;
-use crate::run::load::load_options;
+use crate::run::load::{load_options, warn};
 
 /// A scene by its name.
 pub fn open(name: &str, common: &Common) -> anyhow::Result<Scene> {
-    Ok(catoptric_scene::open(name, &load_options(common))?)
+    let scene = catoptric_scene::open(name, &load_options(common))?;
+    warn(&scene);
+    Ok(scene)
 }
 
 /// The file asked for, known to be of a kind that can be written, in a place that can be.

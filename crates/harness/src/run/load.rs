@@ -11,11 +11,21 @@ use crate::options::Common;
 /// reason; anything else that is wrong is the user's to mend.
 pub fn load(name: &str, options: &LoadOptions) -> anyhow::Result<Result<Scene, String>> {
     match catoptric_scene::open(name, options) {
-        Ok(scene) => Ok(Ok(scene)),
+        Ok(scene) => {
+            warn(&scene);
+            Ok(Ok(scene))
+        }
         Err(error @ SceneError::MissingModel { .. }) if builtin::text(name).is_some() => {
             Ok(Err(error.to_string()))
         }
         Err(error) => Err(error.into()),
+    }
+}
+
+/// Says what is odd in a scene's files, though it can be shown.
+pub fn warn(scene: &Scene) {
+    for warning in &scene.warnings {
+        eprintln!("catoptric: warning: {warning}");
     }
 }
 

@@ -66,6 +66,7 @@ pub fn balls() -> Scene {
         }],
         motion: None,
         hash: String::new(),
+        warnings: Vec::new(),
     }
 }
 

@@ -75,6 +75,7 @@ pub fn scene(camera: Camera, objects: Vec<Object>, mirrors: Vec<Shape>) -> Scene
         mirrors: mirrors.into_iter().enumerate().map(mirror).collect(),
         motion: None,
         hash: String::new(),
+        warnings: Vec::new(),
     }
 }
 

@@ -6,6 +6,7 @@ use super::surface::{PRIMITIVES, Surface, copies, primitive};
 use super::{Origin, name};
 use crate::document::Table;
 use crate::error::suggest;
+use crate::geometry::Purpose;
 use crate::mesh::{Material, Mesh, Paint};
 use crate::shape::{self, EXACT, Shape};
 use crate::{Mirror, SceneError};
@@ -64,7 +65,7 @@ fn reflecting(
     let copies = copies(table)?;
     let facets = table.boolean("facets")?.unwrap_or(false);
     table.finish()?;
-    let mut geometry = surface.geometry(table, origin, true)?;
+    let mut geometry = surface.geometry(table, origin, true, copies.len())?;
     let paint = Paint::Color(glam::Vec3::ZERO);
     geometry.materials = vec![Material {
         name: "mirror".to_owned(),
@@ -74,13 +75,10 @@ fn reflecting(
     geometry.uvs.clear();
     geometry.colors.clear();
     let mut mesh = geometry
-        .into_mesh(&copies)
+        .into_mesh(&copies, Purpose::Mirror)
         .map_err(|message| table.error_here(message))?;
     if mesh.triangles.is_empty() {
         return Err(table.error_here("the mesh is empty: no triangle with area"));
-    }
-    if mesh.normals.is_empty() {
-        mesh.smooth_normals();
     }
     mesh.wind_by_normals();
     if facets {

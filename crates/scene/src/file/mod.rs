@@ -11,6 +11,7 @@ use std::path::PathBuf;
 
 use crate::document::{Source, Table, parse};
 use crate::hash::hash;
+use crate::loading::Loading;
 use crate::{LoadOptions, Object, Scene, SceneError};
 
 /// Where a scene's text comes from and where its models may lie.
@@ -22,10 +23,12 @@ pub(crate) struct Origin<'a> {
     /// Folder of the scene file; `None` for a built-in scene.
     pub folder: Option<PathBuf>,
     pub options: &'a LoadOptions,
+    /// What the scene has made so far.
+    pub loading: Loading,
 }
 
 /// Reads a whole scene.
-pub(crate) fn read(text: &str, origin: &Origin<'_>) -> Result<Scene, SceneError> {
+pub(crate) fn read(text: &str, origin: Origin<'_>) -> Result<Scene, SceneError> {
     let source = Source::new(origin.file, text);
     let document = parse(&source, text)?;
     let root = Table::root(&source, &document);
@@ -53,7 +56,7 @@ pub(crate) fn read(text: &str, origin: &Origin<'_>) -> Result<Scene, SceneError>
         .map(object::spec)
         .collect::<Result<Vec<_>, _>>()?;
     for table in &mirror_tables {
-        let mirror = mirror::mirror(table, origin)?;
+        let mirror = mirror::mirror(table, &origin)?;
         if mirror.shape.contains(camera.eye) {
             let message = format_args!("lies inside {}, which is closed", table.owner());
             return Err(camera_table.error("eye", message));
@@ -63,7 +66,7 @@ pub(crate) fn read(text: &str, origin: &Origin<'_>) -> Result<Scene, SceneError>
     let mut objects = Vec::new();
     for (table, spec) in object_tables.iter().zip(specs) {
         unique(table, &mut names, spec.name())?;
-        let (name, mesh) = spec.build(table, origin, &camera, &mirrors)?;
+        let (name, mesh) = spec.build(table, &origin, &camera, &mirrors)?;
         objects.push(Object { name, mesh });
     }
     for (table, mirror) in mirror_tables.iter().zip(&mirrors) {
@@ -83,6 +86,7 @@ pub(crate) fn read(text: &str, origin: &Origin<'_>) -> Result<Scene, SceneError>
         mirrors,
         motion,
         hash,
+        warnings: origin.loading.into_warnings(),
     })
 }
 

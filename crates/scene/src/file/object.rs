@@ -6,7 +6,7 @@ use super::surface::{PRIMITIVES, Surface, copies, primitive};
 use super::{Origin, name};
 use crate::document::Table;
 use crate::error::suggest;
-use crate::geometry::{Geometry, Transform};
+use crate::geometry::{Geometry, Purpose, Transform};
 use crate::mesh::{Material, Mesh, Paint};
 use crate::mtl::DEFAULT_COLOR;
 use crate::primitives::{Inverse, inverse_points};
@@ -151,13 +151,23 @@ impl Spec {
         camera: &Camera,
         mirrors: &[Mirror],
     ) -> Result<(String, Mesh), SceneError> {
+        let copies = self.copies.len();
+        let counted = |key: &str, count: u64| {
+            (origin.loading.points(count, copies)).map_err(|message| table.error(key, message))
+        };
         let mut geometry = match &self.form {
-            Form::Surface(surface) => surface.geometry(table, origin, self.paint.is_some())?,
-            Form::Points(positions) => Geometry {
-                positions: positions.clone(),
-                ..Geometry::default()
-            },
+            Form::Surface(surface) => {
+                surface.geometry(table, origin, self.paint.is_some(), copies)?
+            }
+            Form::Points(positions) => {
+                counted("positions", positions.len() as u64)?;
+                Geometry {
+                    positions: positions.clone(),
+                    ..Geometry::default()
+                }
+            }
             Form::Inverse { inverse, mirror } => {
+                counted("count", u64::from(inverse.count))?;
                 let which = chosen(table, mirror.as_deref(), mirrors)?;
                 let positions = inverse_points(inverse, camera, mirrors, which)
                     .map_err(|message| table.error("count", format_args!("points: {message}")))?;
@@ -170,7 +180,7 @@ impl Spec {
         let is_mesh = matches!(self.form, Form::Surface(Surface::Mesh { .. }));
         self.paint(table, &mut geometry, is_mesh)?;
         let mesh = geometry
-            .into_mesh(&self.copies)
+            .into_mesh(&self.copies, Purpose::Object)
             .map_err(|message| table.error_here(message))?;
         let no_points = !matches!(self.form, Form::Surface(_));
         if mesh.triangles.is_empty() && !no_points {

@@ -192,13 +192,47 @@ fn triangles(table: &Table<'_>) -> Result<Surface, SceneError> {
 }
 
 impl Surface {
-    /// Reads or makes the triangles; `painted` where something replaces a mesh's materials.
+    /// Triangles of a shape; `None` of a mesh, which has to be read to tell.
+    fn triangle_count(&self) -> Option<u64> {
+        let square = |cells: u32| 2 * u64::from(cells).pow(2);
+        let around = |segments: u32, rows: u32| 2 * u64::from(segments) * u64::from(rows);
+        Some(match self {
+            Self::Quad => square(1),
+            Self::Grid { cells } => square(*cells),
+            Self::Cuboid { cells } => 6 * square(*cells),
+            Self::Sphere { segments, .. } => around(*segments, (segments / 2).max(2) - 1),
+            Self::Torus { segments, .. } => around(*segments, (segments / 2).max(3)),
+            Self::Lathe {
+                profile,
+                cells,
+                segments,
+                ..
+            } => {
+                let poles = |side: &[DVec2]| side.iter().filter(|point| point.x == 0.0).count();
+                let side = |side: &[DVec2]| {
+                    around(*segments, *cells) - u64::from(*segments) * poles(side) as u64
+                };
+                profile.windows(2).map(side).sum()
+            }
+            Self::Teapot { cells } => 32 * square(*cells),
+            Self::Triangles { triangles, .. } => triangles.len() as u64,
+            Self::Mesh { .. } => return None,
+        })
+    }
+
+    /// Reads or makes the triangles, of which there are to be so many copies; `painted` where
+    /// something replaces a mesh's materials.
     pub(super) fn geometry(
         &self,
         table: &Table<'_>,
         origin: &Origin<'_>,
         painted: bool,
+        copies: usize,
     ) -> Result<Geometry, SceneError> {
+        if let Some(count) = self.triangle_count() {
+            (origin.loading.triangles(count, copies))
+                .map_err(|message| table.error("shape", message))?;
+        }
         Ok(match self {
             Self::Quad => primitives::grid(1),
             Self::Grid { cells } => primitives::grid(*cells),
@@ -240,7 +274,7 @@ impl Surface {
                     }
                 };
                 let (owner, file, line) = (table.owner(), table.file(), table.line("mesh"));
-                obj::read(&path, &materials).map_err(|error| {
+                obj::read(&path, &materials, copies, &origin.loading).map_err(|error| {
                     error.used_by(format_args!("the mesh of {owner}, {file}:{line}"))
                 })?
             }

@@ -7,6 +7,11 @@ use crate::mirror::Mirror;
 use crate::random::Random;
 use crate::shape::SurfaceHit;
 
+/// Tries that are made before there is any point,
+const TRIES: usize = 100_000;
+/// and for each point more.
+const TRIES_A_POINT: usize = 1000;
+
 /// How to construct points backwards from the image.
 pub(crate) struct Inverse {
     pub count: u32,
@@ -57,11 +62,18 @@ pub(crate) fn inverse_points(
     let mut random = Random::new(inverse.seed);
     let [least, largest] = inverse.distance.map(f64::ln);
     let mut points = Vec::new();
-    // Near a rim or deep in a bowl most tries may fail, but not nearly all of them.
-    for _ in 0..u64::from(inverse.count) * 1000 {
-        if points.len() == inverse.count as usize {
-            break;
+    let mut tries = 0;
+    while points.len() < inverse.count as usize {
+        // Near a rim or deep in a bowl most tries may fail, but not nearly all of them.
+        if tries == TRIES + TRIES_A_POINT * points.len() {
+            return Err(format!(
+                "distances leave too little room before the mirror is met again: after {tries} \
+                 tries there are {} of {} points",
+                points.len(),
+                inverse.count
+            ));
         }
+        tries += 1;
         let pixel = pixels[random.below(pixels.len())];
         let at = pixel + DVec2::new(random.unit(), random.unit());
         let t = (least + (largest - least) * random.unit()).exp();
@@ -75,9 +87,6 @@ pub(crate) fn inverse_points(
         if again.is_none_or(|again| again.t > t) {
             points.push(hit.position + t * reflected);
         }
-    }
-    if points.len() < inverse.count as usize {
-        return Err("distances leave too little room before the mirror is met again".to_owned());
     }
     Ok(points)
 }
@@ -163,5 +172,23 @@ mod tests {
             distance: [1.0, 2.0],
         };
         assert!(inverse_points(&inverse, &camera(), &mirrors, 0).is_err());
+    }
+
+    #[test]
+    fn hopeless_distances_are_given_up_soon() {
+        let shape = Shape::Bowl(Bowl {
+            center: DVec3::ZERO,
+            radius: 2.0,
+            axis: DVec3::NEG_Z,
+            half_angle: 3.1,
+        });
+        let inverse = Inverse {
+            count: 10_000_000,
+            seed: 1,
+            distance: [100.0, 1000.0],
+        };
+        let message = inverse_points(&inverse, &camera(), &mirror(shape), 0).unwrap_err();
+        assert!(message.contains("too little room"), "{message}");
+        assert!(message.contains("there are 0 of 10000000"), "{message}");
     }
 }

@@ -113,11 +113,13 @@ fn bernstein_slope(t: f64) -> [f64; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Transform;
+    use crate::geometry::{Purpose, Transform};
 
     #[test]
     fn known_size_and_place() {
-        let mesh = teapot(16).into_mesh(&[Transform::IDENTITY]).unwrap();
+        let mesh = teapot(16)
+            .into_mesh(&[Transform::IDENTITY], Purpose::Object)
+            .unwrap();
         // As the patches of 1975 give it: 32 · 512 triangles, less those collapsed at 8 poles.
         assert_eq!((mesh.positions.len(), mesh.triangles.len()), (8257, 16256));
         let (low, high) = mesh.bounds().unwrap();
@@ -130,7 +132,9 @@ mod tests {
 
     #[test]
     fn normals_match_the_triangles_and_point_outside() {
-        let mesh = teapot(24).into_mesh(&[Transform::IDENTITY]).unwrap();
+        let mesh = teapot(24)
+            .into_mesh(&[Transform::IDENTITY], Purpose::Object)
+            .unwrap();
         for (corners, normals) in mesh.triangles.iter().zip(&mesh.normals) {
             let [a, b, c] = corners.map(|index| mesh.positions[index as usize]);
             let face = (b - a).cross(c - a).normalize();

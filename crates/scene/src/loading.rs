@@ -1,0 +1,106 @@
+//! What loading one scene has made so far: textures, counts against their limits, warnings.
+
+use std::cell::{Cell, RefCell};
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use crate::mesh::Texture;
+use crate::texture::Picture;
+
+/// Most triangles of a scene, in all objects and mesh mirrors with their copies, and most points
+/// (vertices without triangles): some 2 GiB of either while they are made.
+const MOST: u64 = 10_000_000;
+
+/// Most texels of a scene, in all its textures: 768 MiB.
+const MOST_TEXELS: u64 = 1 << 26;
+
+/// Shared by all objects and mirrors of a scene while it is loaded.
+#[derive(Default)]
+pub(crate) struct Loading {
+    triangles: Cell<u64>,
+    points: Cell<u64>,
+    texels: Cell<u64>,
+    textures: RefCell<HashMap<PathBuf, Arc<Texture>>>,
+    warnings: RefCell<Vec<String>>,
+}
+
+impl Loading {
+    /// Counts triangles that are about to be made, `copies` times; says where they are too many.
+    pub(crate) fn triangles(&self, count: u64, copies: usize) -> Result<(), String> {
+        add(&self.triangles, count, copies, "triangles")
+    }
+
+    /// Counts points that are about to be made, `copies` times; says where they are too many.
+    pub(crate) fn points(&self, count: u64, copies: usize) -> Result<(), String> {
+        add(&self.points, count, copies, "points")
+    }
+
+    /// The picture in a file, which is read once a scene.
+    pub(crate) fn texture(&self, file: &Path) -> Result<Arc<Texture>, String> {
+        let file = file.canonicalize().unwrap_or_else(|_| file.to_owned());
+        if let Some(texture) = self.textures.borrow().get(&file) {
+            return Ok(Arc::clone(texture));
+        }
+        let picture = Picture::open(&file)?;
+        let [width, height] = picture.size();
+        let texels = u64::from(width) * u64::from(height);
+        let all = self.texels.get() + texels;
+        if all > MOST_TEXELS {
+            return Err(format!(
+                "has {texels} texels ({width}x{height}), which makes {all} in all textures of the \
+                 scene: the most is {MOST_TEXELS}"
+            ));
+        }
+        self.texels.set(all);
+        let texture = Arc::new(picture.decode()?);
+        self.textures
+            .borrow_mut()
+            .insert(file, Arc::clone(&texture));
+        Ok(texture)
+    }
+
+    /// Notes what is odd but keeps nothing from loading.
+    pub(crate) fn warn(&self, message: String) {
+        self.warnings.borrow_mut().push(message);
+    }
+
+    /// All that was noted, in order.
+    pub(crate) fn into_warnings(self) -> Vec<String> {
+        self.warnings.into_inner()
+    }
+}
+
+fn add(sum: &Cell<u64>, count: u64, copies: usize, what: &str) -> Result<(), String> {
+    let new = count.saturating_mul(copies as u64);
+    let all = sum.get().saturating_add(new);
+    if all > MOST {
+        let times = match copies {
+            1 => String::new(),
+            _ => format!(" (in {copies} copies)"),
+        };
+        return Err(format!(
+            "makes {new} {what}{times}, which makes {all} in the scene: the most is {MOST}"
+        ));
+    }
+    sum.set(all);
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_counted_adds_up() {
+        let loading = Loading::default();
+        assert_eq!(loading.triangles(MOST / 2, 2), Ok(()));
+        assert_eq!(loading.points(MOST, 1), Ok(()));
+        assert_eq!(
+            loading.triangles(2, 3).unwrap_err(),
+            "makes 6 triangles (in 3 copies), which makes 10000006 in the scene: the most is \
+             10000000"
+        );
+        assert!(loading.points(u64::MAX, usize::MAX).is_err());
+    }
+}

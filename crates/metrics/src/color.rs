@@ -15,7 +15,7 @@ const RELATIVE_EPSILON: f64 = 0.01;
 pub(crate) struct ColorMaps<'images> {
     reference: &'images [Vec3],
     test: &'images [Vec3],
-    ssim: Image<f32>,
+    ssim: Image<f64>,
     flip: Image<f32>,
 }
 
@@ -42,10 +42,13 @@ impl<'images> ColorMaps<'images> {
     /// there are none.
     pub fn over(&self, includes: impl Fn(usize) -> bool) -> Option<ColorError> {
         let mut sums = Sums::default();
-        for (index, (&reference, &test)) in self.reference.iter().zip(self.test).enumerate() {
-            if includes(index) && reference.is_finite() && test.is_finite() {
+        let pairs = self.reference.iter().zip(self.test).enumerate();
+        for (index, (&reference, &test)) in pairs.filter(|&(index, _)| includes(index)) {
+            if !reference.is_finite() || !test.is_finite() {
+                sums.left_out += 1;
+            } else {
                 sums.pixels += 1;
-                sums.ssim += f64::from(self.ssim.pixels()[index]);
+                sums.ssim += self.ssim.pixels()[index];
                 sums.flip += f64::from(self.flip.pixels()[index]);
                 for (f, t) in reference.to_array().into_iter().zip(test.to_array()) {
                     sums.add_channel(f64::from(f), f64::from(t));
@@ -59,6 +62,7 @@ impl<'images> ColorMaps<'images> {
 #[derive(Default)]
 struct Sums {
     pixels: u64,
+    left_out: u64,
     absolute: f64,
     squared: f64,
     relative: f64,
@@ -87,10 +91,12 @@ impl Sums {
             mae: self.absolute / channels,
             rmse: mse.sqrt(),
             psnr: (mse > 0.0).then(|| -10.0 * mse.log10()),
+            equal: mse == 0.0 && self.left_out == 0,
             ssim: self.ssim / pixels,
             flip: self.flip / pixels,
             rel_mse: self.relative / channels,
             mrse: self.relative_pbrt / channels,
+            left_out: self.left_out,
         })
     }
 }

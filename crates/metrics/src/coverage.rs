@@ -157,7 +157,8 @@ impl<'frames> Layers<'frames> {
 /// Angle between two directions of any length, degrees; NaN if one of them has none.
 pub(crate) fn angle_deg(a: DVec3, b: DVec3) -> f64 {
     let degenerate = a.length_squared() * b.length_squared() == 0.0;
-    let angle = a.cross(b).length().atan2(a.dot(b)).to_degrees();
+    // a × (b − a) is a × b, without the cancellation where both are nearly the same.
+    let angle = a.cross(b - a).length().atan2(a.dot(b)).to_degrees();
     if degenerate { f64::NAN } else { angle }
 }
 

@@ -9,9 +9,6 @@ use catoptric_frame::Reflected;
 use crate::coverage::Layers;
 use crate::stats::Summary;
 
-/// Farther than any point of an image.
-const FAR: f64 = 1e15;
-
 /// Distances in pixels from every edge point of the one picture to the nearest of the other, both
 /// ways; `None` unless both have edges. Where an object reaches the mirror's outline there is an
 /// edge to be near to, but none to ask for: the outline is the same in both.
@@ -63,7 +60,9 @@ fn edge_points(layers: &Layers, layer: &Reflected, outline: bool) -> Vec<usize> 
 /// Square of the distance from every point of a grid to the nearest of `points`: along the
 /// columns, then along the rows.
 fn distances([width, height]: [usize; 2], points: &[usize]) -> Vec<f64> {
-    let mut squares = vec![FAR; width * height];
+    // Farther than any two points of the grid, and exact.
+    let far = ((width + height) as f64).powi(2);
+    let mut squares = vec![far; width * height];
     for &point in points {
         squares[point] = 0.0;
     }

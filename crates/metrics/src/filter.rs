@@ -2,33 +2,33 @@
 //! nearest pixel counts.
 
 use catoptric_frame::Image;
-use glam::Vec4;
+use glam::DVec4;
 use rayon::prelude::*;
 
 /// One-dimensional kernel of odd length, centred; a weight per channel.
-pub(crate) type Kernel = [Vec4];
+pub(crate) type Kernel = [DVec4];
 
 /// Gaussian weights for integer offsets `-radius..=radius`, not normalized.
-pub(crate) fn gaussian(sigma: f32, radius: usize) -> impl Iterator<Item = (f32, f32)> {
+pub(crate) fn gaussian(sigma: f64, radius: usize) -> impl Iterator<Item = (f64, f64)> {
     offsets(radius).map(move |x| (x, (-x * x / (2.0 * sigma * sigma)).exp()))
 }
 
 /// The integer offsets `-radius..=radius`.
-pub(crate) fn offsets(radius: usize) -> impl Iterator<Item = f32> {
-    (0..=2 * radius).map(move |index| index as f32 - radius as f32)
+pub(crate) fn offsets(radius: usize) -> impl Iterator<Item = f64> {
+    (0..=2 * radius).map(move |index| index as f64 - radius as f64)
 }
 
 /// Convolves along the rows. (Correlates, rather: the kernel is not mirrored.)
-pub(crate) fn along_x(image: &Image<Vec4>, kernel: &Kernel) -> Image<Vec4> {
+pub(crate) fn along_x(image: &Image<DVec4>, kernel: &Kernel) -> Image<DVec4> {
     let [width, height] = image.size();
     let (columns, radius) = (width as usize, kernel.len() / 2);
-    let mut filtered = Image::filled([width, height], Vec4::ZERO);
+    let mut filtered = Image::filled([width, height], DVec4::ZERO);
     if columns == 0 {
         return filtered;
     }
     let rows = filtered.pixels_mut().par_chunks_mut(columns);
     rows.zip(image.pixels().par_chunks(columns)).for_each_init(
-        || vec![Vec4::ZERO; columns + 2 * radius],
+        || vec![DVec4::ZERO; columns + 2 * radius],
         |padded, (filtered, row)| {
             padded[..radius].fill(row[0]);
             padded[radius..radius + columns].copy_from_slice(row);
@@ -47,10 +47,10 @@ pub(crate) fn along_x(image: &Image<Vec4>, kernel: &Kernel) -> Image<Vec4> {
 }
 
 /// Convolves along the columns.
-pub(crate) fn along_y(image: &Image<Vec4>, kernel: &Kernel) -> Image<Vec4> {
+pub(crate) fn along_y(image: &Image<DVec4>, kernel: &Kernel) -> Image<DVec4> {
     let [width, height] = image.size();
     let (columns, last_row) = (width as usize, (height as usize).saturating_sub(1));
-    let mut filtered = Image::filled([width, height], Vec4::ZERO);
+    let mut filtered = Image::filled([width, height], DVec4::ZERO);
     if columns == 0 {
         return filtered;
     }
@@ -76,9 +76,9 @@ mod tests {
 
     #[test]
     fn both_directions_shift_alike_and_repeat_the_border() {
-        let kernel = [0.0, 0.0, 1.0].map(Vec4::splat);
-        let ramp = |size| Image::from_vec(size, [1.0, 2.0, 4.0].map(Vec4::splat).to_vec());
-        let expected = [2.0, 4.0, 4.0].map(Vec4::splat);
+        let kernel = [0.0, 0.0, 1.0].map(DVec4::splat);
+        let ramp = |size| Image::from_vec(size, [1.0, 2.0, 4.0].map(DVec4::splat).to_vec());
+        let expected = [2.0, 4.0, 4.0].map(DVec4::splat);
         assert_eq!(along_x(&ramp([3, 1]), &kernel).pixels(), expected);
         assert_eq!(along_y(&ramp([1, 3]), &kernel).pixels(), expected);
         assert_eq!(along_x(&ramp([1, 3]), &kernel), ramp([1, 3]));

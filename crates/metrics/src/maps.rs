@@ -96,7 +96,10 @@ pub fn error_map(
     test: &Frame,
 ) -> Result<Image<f32>, MetricsError> {
     let layers = Layers::new(reference, test)?;
-    let difference = |index: usize| test.color.pixels()[index] - reference.color.pixels()[index];
+    let difference = |index: usize| {
+        let [test, reference] = [test, reference].map(|frame| frame.color.pixels()[index]);
+        test.as_dvec3() - reference.as_dvec3()
+    };
     let of_mask = |value: &dyn Fn(usize) -> f32| {
         let mut map = Image::filled(layers.size, f32::NAN);
         for index in layers.mirror_pixels() {
@@ -105,8 +108,8 @@ pub fn error_map(
         map
     };
     Ok(match kind {
-        MapKind::AbsColor => of_mask(&|index| difference(index).abs().element_sum() / 3.0),
-        MapKind::SignedColor => of_mask(&|index| difference(index).element_sum() / 3.0),
+        MapKind::AbsColor => of_mask(&|index| (difference(index).abs().element_sum() / 3.0) as f32),
+        MapKind::SignedColor => of_mask(&|index| (difference(index).element_sum() / 3.0) as f32),
         MapKind::Angular => of_mask(&|index| {
             layers
                 .angular_error_deg(index)

@@ -82,8 +82,12 @@ pub struct ColorError {
     pub mae: f64,
     /// Root of the mean squared error.
     pub rmse: f64,
-    /// Against a peak of 1, in dB; `None` when equal.
+    /// Against a peak of 1, in dB; `None` where there is no difference, which would be infinitely
+    /// good: see `equal`.
     pub psnr: Option<f64>,
+    /// No pixel differs and none was left out: the best that `psnr` can say.
+    #[serde(default)]
+    pub equal: bool,
     /// Structural similarity of the luma, 11 × 11 Gaussian, σ 1.5; 1 when equal.
     pub ssim: f64,
     /// Mean FLIP-LDR error, 0 to 1.
@@ -92,6 +96,9 @@ pub struct ColorError {
     pub rel_mse: f64,
     /// Mean of `(t − f)² / (f + 0.01)²`, the form that pbrt prints.
     pub mrse: f64,
+    /// Pixels left out of all these, since NaN or infinity stands in either picture.
+    #[serde(default)]
+    pub left_out: u64,
 }
 
 /// Counts of pixels that hold NaN or infinity.
@@ -104,6 +111,32 @@ pub struct NonFinite {
     pub test: u64,
     /// Pixels without an angle: a position is not finite or lies on the mirror point.
     pub angles: u64,
+}
+
+impl NonFinite {
+    /// What was left out of the means and why, in a sentence; `None` where nothing was.
+    pub fn reason(&self) -> Option<String> {
+        let parts = [
+            (
+                self.reference,
+                "whose colour in the reference is NaN or infinite",
+            ),
+            (
+                self.test,
+                "whose colour in the tested picture is NaN or infinite",
+            ),
+            (
+                self.angles,
+                "where a position is not finite or lies on the mirror point",
+            ),
+        ];
+        let parts: Vec<String> = parts
+            .iter()
+            .filter(|(count, _)| *count > 0)
+            .map(|(count, what)| format!("{count} mirror pixels {what}"))
+            .collect();
+        (!parts.is_empty()).then(|| format!("left out of the means: {}", parts.join("; ")))
+    }
 }
 
 /// The picture in regions.

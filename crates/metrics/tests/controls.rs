@@ -154,6 +154,7 @@ fn identical_frames_are_without_any_error() {
     for color in regions.into_iter().chain([same.regions.interior.color]) {
         let color = color.unwrap();
         assert_eq!((color.mae, color.rmse, color.psnr), (0.0, 0.0, None));
+        assert!(color.equal && color.left_out == 0);
         assert_eq!((color.ssim, color.flip), (1.0, 0.0));
         assert_eq!((color.rel_mse, color.mrse), (0.0, 0.0));
     }
@@ -260,6 +261,7 @@ fn a_known_colour_difference_gives_the_textbook_numbers() {
         .unwrap();
     assert_eq!((color.mae, color.rmse), (0.25, 0.25));
     assert!((color.psnr.unwrap() - 12.041_199_826_559_248).abs() < 1e-12);
+    assert!(!color.equal);
     assert!((color.rel_mse - 0.0625 / 0.26).abs() < 1e-12);
     assert!((color.mrse - 0.0625 / 0.2601).abs() < 1e-12);
 }
@@ -375,7 +377,17 @@ fn what_is_not_finite_is_counted_and_left_out() {
     });
     assert_eq!((odd.non_finite.reference, odd.non_finite.test), (0, 2));
     assert_eq!(odd.non_finite.angles, 1);
-    assert_eq!(odd.color.unwrap().mae, 0.0);
+    let reason = odd.non_finite.reason().unwrap();
+    for part in [
+        "2 mirror pixels whose colour in the tested",
+        "1 mirror pixels where a position",
+    ] {
+        assert!(reason.contains(part), "{reason}");
+    }
+    assert_eq!(with_fault(|_| {}).non_finite.reason(), None);
+    let color = odd.color.unwrap();
+    assert_eq!((color.mae, color.psnr, color.left_out), (0.0, None, 2));
+    assert!(!color.equal, "what is not compared is not equal");
     assert!(odd.color.unwrap().flip.is_finite() && odd.color.unwrap().ssim.is_finite());
     assert_eq!(odd.angular_error_deg.unwrap().max, 0.0);
 }

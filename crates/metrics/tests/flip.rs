@@ -133,14 +133,12 @@ fn what_a_display_cannot_show_is_clamped() {
 const PUBLISHED_MEAN: f64 = 0.159_691;
 const PUBLISHED_TOLERANCE: f64 = 1e-4;
 
-/// The pair belongs to others and is not in this repository: the variable names a folder that has
-/// `reference.png` and `test.png`.
+/// The pair belongs to others and is not in this repository. Ignored, so that a run that leaves it
+/// out says so; asked for, it fails without the pair.
 #[test]
+#[ignore = "needs FLIP's pair of images: CATOPTRIC_FLIP_PAIR names the folder of reference.png and test.png"]
 fn published_pair() {
-    let Some(folder) = std::env::var_os("CATOPTRIC_FLIP_PAIR") else {
-        eprintln!("skipped: CATOPTRIC_FLIP_PAIR does not name the folder of FLIP's image pair");
-        return;
-    };
+    let folder = std::env::var_os("CATOPTRIC_FLIP_PAIR").expect("CATOPTRIC_FLIP_PAIR is set");
     let [reference, test] = ["reference.png", "test.png"].map(|name| {
         let image = image::open(std::path::Path::new(&folder).join(name))
             .unwrap()

@@ -38,10 +38,12 @@ pub fn measured(scene: &str, technique: &str) -> Record {
         mae: 0.1,
         rmse: 0.2,
         psnr: Some(30.0),
+        equal: false,
         ssim: 0.9,
         flip: 0.05,
         rel_mse: 0.1,
         mrse: 0.1,
+        left_out: 0,
     };
     let region = || Region {
         mirror_pixels: 10,

@@ -178,7 +178,7 @@ impl Channels {
             Some(index) => {
                 let (value, width) = (samples.pixels()[index], self.size[0] as usize);
                 let (x, y) = (index % width, index / width);
-                Err(FrameError::OddChannel {
+                Err(FrameError::RefusedChannel {
                     path: self.path.clone(),
                     channel: name.into(),
                     reason: format!("{value} at column {x}, row {y} is not {expected}"),
@@ -188,7 +188,7 @@ impl Channels {
     }
 
     fn of(path: &Path, mut image: FlatImage) -> Result<Self, FrameError> {
-        let odd = |reason| FrameError::Odd {
+        let odd = |reason| FrameError::Refused {
             path: path.into(),
             reason,
         };
@@ -232,7 +232,7 @@ impl Channels {
             let name = channel.name.to_string();
             if channel.sampling != exr::math::Vec2(1, 1) {
                 let reason = "is subsampled; one sample a pixel is expected".into();
-                return Err(FrameError::OddChannel {
+                return Err(FrameError::RefusedChannel {
                     path: path.into(),
                     channel: name,
                     reason,

@@ -49,9 +49,9 @@ pub enum FrameError {
         /// The channels that are there.
         present: String,
     },
-    /// A channel holds something that it must not.
+    /// A channel holds something that it must not, or is stored in a way that is not supported.
     #[error("{}: channel `{channel}`: {reason}", path.display())]
-    OddChannel {
+    RefusedChannel {
         /// The file.
         path: PathBuf,
         /// The channel's full name.
@@ -59,9 +59,9 @@ pub enum FrameError {
         /// What is wrong with it.
         reason: String,
     },
-    /// The picture as a whole is not what is expected: parts, windows, header, layer sizes.
+    /// The file as a whole is not what is expected: its kind, parts, windows, header, layer sizes.
     #[error("{}: {reason}", path.display())]
-    Odd {
+    Refused {
         /// The file.
         path: PathBuf,
         /// What is wrong.

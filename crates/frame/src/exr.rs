@@ -9,27 +9,26 @@
 //! Read: the same, and what other renderers write: channels in any order, half or unsigned samples,
 //! any lossless or lossy compression the `exr` crate knows, only colour, no status, no names.
 
+use std::io::Cursor;
 use std::path::Path;
 
-use exr::error::Error;
 use exr::image::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image as ExrImage, Layer};
 use exr::prelude::{SmallVec, WritableImage};
 use glam::Vec3;
 
-use crate::atomic::write_atomically;
 use crate::channels::{AXES, Channels, IDS_ATTRIBUTE, MAX_ID};
-use crate::{Frame, FrameError, Image, Primary, Reflected, names};
+use crate::{Frame, FrameError, Image, Primary, Reflected, names, write_whole};
 
 impl Frame {
     /// Writes all layers as one OpenEXR file; see the module for the channels. The file is there
     /// whole or not at all.
     pub fn write_exr(&self, path: impl AsRef<Path>) -> Result<(), FrameError> {
         let path = path.as_ref();
-        let odd = |reason| FrameError::Odd {
+        let refused = |reason| FrameError::Refused {
             path: path.into(),
             reason,
         };
-        self.check_sizes().map_err(odd)?;
+        self.check_sizes().map_err(refused)?;
 
         let channels = self.channels();
         if let Some((name, _)) = channels
@@ -37,7 +36,7 @@ impl Frame {
             .filter(|(name, _)| name.ends_with("id"))
             .find(|(_, samples)| samples.iter().any(|&id| id > MAX_ID))
         {
-            return Err(FrameError::OddChannel {
+            return Err(FrameError::RefusedChannel {
                 path: path.into(),
                 channel: name.clone(),
                 reason: format!("an id above {MAX_ID} does not fit a 32-bit float"),
@@ -61,7 +60,7 @@ impl Frame {
         ));
         if !self.names.is_empty() {
             use exr::meta::attribute::{AttributeValue, Text};
-            let list = names::to_text(&self.names).map_err(odd)?;
+            let list = names::to_text(&self.names).map_err(refused)?;
             // Bytes as they are: EXR text has no stated encoding, ours is UTF-8.
             let list = AttributeValue::Text(Text::from_slice_unchecked(list.as_bytes()));
             image
@@ -70,21 +69,15 @@ impl Frame {
                 .other
                 .insert(IDS_ATTRIBUTE.into(), list);
         }
-        write_atomically(path, |writer| {
-            image
-                .write()
-                .to_buffered(writer)
-                .map_err(|error| match error {
-                    Error::Io(source) => FrameError::Write {
-                        path: path.into(),
-                        source,
-                    },
-                    source => FrameError::Exr {
-                        path: path.into(),
-                        source,
-                    },
-                })
-        })
+        let mut bytes = Cursor::new(Vec::new());
+        image
+            .write()
+            .to_buffered(&mut bytes)
+            .map_err(|source| FrameError::Exr {
+                path: path.into(),
+                source,
+            })?;
+        write_whole(path, &bytes.into_inner())
     }
 
     /// Reads an OpenEXR file, ours or another renderer's.

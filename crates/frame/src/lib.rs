@@ -13,7 +13,7 @@ mod names;
 pub mod png;
 pub mod results;
 
-pub use atomic::write_whole;
+pub use atomic::{abandon_writes, check_writable, write_whole};
 pub use channels::Channels;
 pub use error::FrameError;
 pub use image::Image;

@@ -6,8 +6,7 @@ use glam::Vec3;
 use image::ImageEncoder;
 use image::codecs::png::PngEncoder;
 
-use crate::atomic::write_atomically;
-use crate::{FrameError, Image};
+use crate::{FrameError, Image, write_whole};
 
 /// The sRGB code value (0 to 1) of a linear value, clamped; NaN gives 0.
 pub fn srgb_from_linear(linear: f32) -> f32 {
@@ -36,19 +35,19 @@ pub fn write_png(image: &Image<Vec3>, path: impl AsRef<Path>) -> Result<(), Fram
 pub fn write_png_rgb8(image: &Image<[u8; 3]>, path: impl AsRef<Path>) -> Result<(), FrameError> {
     let path = path.as_ref();
     let [width, height] = image.size();
-    write_atomically(path, |writer| {
-        PngEncoder::new(writer)
-            .write_image(
-                image.pixels().as_flattened(),
-                width,
-                height,
-                image::ExtendedColorType::Rgb8,
-            )
-            .map_err(|source| FrameError::Png {
-                path: path.into(),
-                source,
-            })
-    })
+    let mut png = Vec::new();
+    PngEncoder::new(&mut png)
+        .write_image(
+            image.pixels().as_flattened(),
+            width,
+            height,
+            image::ExtendedColorType::Rgb8,
+        )
+        .map_err(|source| FrameError::Png {
+            path: path.into(),
+            source,
+        })?;
+    write_whole(path, &png)
 }
 
 #[cfg(test)]

@@ -3,10 +3,14 @@
 //! [`Frame::read_exr`](crate::Frame::read_exr) wants whole layers; this serves whoever can use less.
 
 use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{BufReader, Seek};
 use std::path::{Path, PathBuf};
 
 use exr::error::Error;
 use exr::image::{FlatImage, FlatSamples};
+use exr::meta::MetaData;
+use exr::meta::header::Header;
 use exr::prelude::{ReadChannels, ReadLayers};
 use glam::Vec3;
 
@@ -15,10 +19,23 @@ use crate::{FrameError, Image, Name, Status, names};
 /// Header attribute with the id → name list.
 pub(crate) const IDS_ATTRIBUTE: &str = "catoptric.ids";
 
+/// What the `exr` crate says of a file that ends too early.
+const MISSING_BYTES: &str = "reference to missing bytes";
+
 /// The largest id whose neighbours are all exact in a 32-bit float.
 pub(crate) const MAX_ID: f32 = 16_777_216.0;
 
 pub(crate) const AXES: [&str; 3] = ["X", "Y", "Z"];
+
+/// The most pixels of a picture that is read.
+pub const MOST_PIXELS: u64 = 1 << 25;
+
+/// The most channels of a picture that is read.
+pub const MOST_CHANNELS: usize = 64;
+
+/// No compression makes more than this of a byte, not even of a picture in one colour: a header that
+/// promises more lies, or the file was cut.
+const MOST_EXPANSION: u64 = 1 << 17;
 
 /// What a file holds.
 #[derive(Clone, Debug)]
@@ -37,26 +54,49 @@ struct Channel {
 
 impl Channels {
     /// Reads a file of one part whose data window is its display window; see
-    /// [`exr`](crate::exr) for what else is accepted.
+    /// [`exr`](crate::exr) for what else is accepted. The header is checked before anything is
+    /// decoded: [`MOST_PIXELS`] and [`MOST_CHANNELS`] at most.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, FrameError> {
         let path = path.as_ref();
+        let read_error = |source| FrameError::Read {
+            path: path.into(),
+            source,
+        };
+        let refused = |reason: &str| FrameError::Refused {
+            path: path.into(),
+            reason: reason.into(),
+        };
+        let exr_error = |error| match error {
+            Error::Io(source) => read_error(source),
+            Error::Invalid(text) if text == MISSING_BYTES => {
+                refused("ends before the picture does: it was cut off, or not written to the end")
+            }
+            source => FrameError::Exr {
+                path: path.into(),
+                source,
+            },
+        };
+        let metadata = std::fs::metadata(path).map_err(read_error)?;
+        if !metadata.is_file() {
+            return Err(refused(
+                "is a folder, a device or a pipe; an OpenEXR file is expected",
+            ));
+        }
+        if metadata.len() == 0 {
+            return Err(refused("is empty; an OpenEXR file is expected"));
+        }
+        let mut file = BufReader::new(File::open(path).map_err(read_error)?);
+        let header = MetaData::read_from_buffered(&mut file, false).map_err(exr_error)?;
+        check_header(path, &header.headers, metadata.len())?;
+        file.rewind().map_err(read_error)?;
         let image = exr::prelude::read()
             .no_deep_data()
             .largest_resolution_level()
             .all_channels()
             .all_layers()
             .all_attributes()
-            .from_file(path)
-            .map_err(|error| match error {
-                Error::Io(source) => FrameError::Read {
-                    path: path.into(),
-                    source,
-                },
-                source => FrameError::Exr {
-                    path: path.into(),
-                    source,
-                },
-            })?;
+            .from_buffered(file)
+            .map_err(exr_error)?;
         Self::of(path, image)
     }
 
@@ -68,6 +108,24 @@ impl Channels {
     /// The id → name list in the header, ids ascending; empty without one.
     pub fn names(&self) -> &[Name] {
         &self.names
+    }
+
+    /// How it is known which pixels are mirrors, in a sentence, where the file itself does not say:
+    /// see [`Frame::from_channels`](crate::Frame::from_channels).
+    pub fn status_note(&self) -> Option<String> {
+        if !self.any("reflected.") || self.any("reflected.status") {
+            return None;
+        }
+        let from = if self.names.is_empty() {
+            "a pixel is taken to be a mirror's where its `primary.id` has a `reflected.id` somewhere, \
+             since the header has no `catoptric.ids`"
+        } else {
+            "a pixel is taken to be a mirror's where `catoptric.ids` says so of its `primary.id`"
+        };
+        Some(format!(
+            "{}: no channel `reflected.status`: {from}; each such pixel counts as resolved",
+            self.path.display()
+        ))
     }
 
     /// Full names of all channels, in alphabetical order.
@@ -188,32 +246,11 @@ impl Channels {
     }
 
     fn of(path: &Path, mut image: FlatImage) -> Result<Self, FrameError> {
-        let odd = |reason| FrameError::Refused {
+        let refused = |reason| FrameError::Refused {
             path: path.into(),
             reason,
         };
-        if image.layer_data.len() != 1 {
-            return Err(odd(format!(
-                "has {} parts, one is expected",
-                image.layer_data.len()
-            )));
-        }
         let layer = image.layer_data.remove(0);
-        let display = image.attributes.display_window;
-        let position = layer.attributes.layer_position;
-        if (position, layer.size) != (display.position, display.size) {
-            return Err(odd(format!(
-                "the data window ({} × {} at {}, {}) is not the display window ({} × {} at {}, {})",
-                layer.size.0,
-                layer.size.1,
-                position.0,
-                position.1,
-                display.size.0,
-                display.size.1,
-                display.position.0,
-                display.position.1,
-            )));
-        }
         let names = match layer.attributes.other.get(IDS_ATTRIBUTE.as_bytes()) {
             Some(value) => {
                 let text = value
@@ -222,28 +259,19 @@ impl Channels {
                     .and_then(|text| str::from_utf8(text.as_slice()).ok());
                 text.ok_or_else(|| "is not UTF-8 text".to_owned())
                     .and_then(names::from_text)
-                    .map_err(|reason| odd(format!("header `{IDS_ATTRIBUTE}`: {reason}")))?
+                    .map_err(|reason| refused(format!("header `{IDS_ATTRIBUTE}`: {reason}")))?
             }
             None => Vec::new(),
         };
 
         let mut channels = BTreeMap::new();
         for channel in layer.channel_data.list {
-            let name = channel.name.to_string();
-            if channel.sampling != exr::math::Vec2(1, 1) {
-                let reason = "is subsampled; one sample a pixel is expected".into();
-                return Err(FrameError::RefusedChannel {
-                    path: path.into(),
-                    channel: name,
-                    reason,
-                });
-            }
             let half = matches!(channel.sample_data, FlatSamples::F16(_));
             let samples = match channel.sample_data {
                 FlatSamples::F32(samples) => samples,
                 other => other.values_as_f32().collect(),
             };
-            channels.insert(name, Channel { samples, half });
+            channels.insert(channel.name.to_string(), Channel { samples, half });
         }
         let size = [layer.size.0 as u32, layer.size.1 as u32];
         Ok(Self {
@@ -253,6 +281,71 @@ impl Channels {
             names,
         })
     }
+}
+
+/// Refuses what cannot be read, or would take more memory than a picture may, before it is decoded.
+fn check_header(path: &Path, parts: &[Header], file_bytes: u64) -> Result<(), FrameError> {
+    let refused = |reason| FrameError::Refused {
+        path: path.into(),
+        reason,
+    };
+    let [header] = parts else {
+        let count = parts.len();
+        return Err(refused(format!("has {count} parts, one is expected")));
+    };
+    if header.deep {
+        return Err(refused(
+            "holds deep data; one sample a pixel is expected".into(),
+        ));
+    }
+    let (window, display) = (header.layer_size, header.shared_attributes.display_window);
+    let (width, height) = (window.0 as u64, window.1 as u64);
+    let pixels = width.saturating_mul(height);
+    if pixels > MOST_PIXELS {
+        return Err(refused(format!(
+            "the data window is {width} × {height} pixels; {MOST_PIXELS} in all are the most"
+        )));
+    }
+    let position = header.own_attributes.layer_position;
+    if (position, window) != (display.position, display.size) {
+        return Err(refused(format!(
+            "the data window ({width} × {height} at {}, {}) is not the display window ({} × {} at {}, {})",
+            position.0,
+            position.1,
+            display.size.0,
+            display.size.1,
+            display.position.0,
+            display.position.1,
+        )));
+    }
+    let channels = &header.channels.list;
+    if channels.len() > MOST_CHANNELS {
+        let count = channels.len();
+        return Err(refused(format!(
+            "has {count} channels; {MOST_CHANNELS} are the most"
+        )));
+    }
+    for channel in channels {
+        if channel.sampling != exr::math::Vec2(1, 1) {
+            return Err(FrameError::RefusedChannel {
+                path: path.into(),
+                channel: channel.name.to_string(),
+                reason: "is subsampled; one sample a pixel is expected".into(),
+            });
+        }
+    }
+    let bytes = pixels * channels.iter().map(bytes_per_sample).sum::<u64>();
+    if bytes > file_bytes.saturating_mul(MOST_EXPANSION) {
+        return Err(refused(format!(
+            "{width} × {height} pixels of {} channels cannot be in {file_bytes} bytes",
+            channels.len()
+        )));
+    }
+    Ok(())
+}
+
+fn bytes_per_sample(channel: &exr::meta::attribute::ChannelDescription) -> u64 {
+    channel.sample_type.bytes_per_sample() as u64
 }
 
 /// The status with this code.

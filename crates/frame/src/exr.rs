@@ -80,14 +80,19 @@ impl Frame {
         write_whole(path, &bytes.into_inner())
     }
 
-    /// Reads an OpenEXR file, ours or another renderer's.
+    /// Reads an OpenEXR file, ours or another renderer's: see [`Frame::from_channels`].
+    pub fn read_exr(path: impl AsRef<Path>) -> Result<Self, FrameError> {
+        Self::from_channels(&Channels::read(path)?)
+    }
+
+    /// The layers of a file.
     ///
     /// `R G B` must be there. The `primary` channels are there all or none, likewise the
     /// `reflected` ones; then the layer is `None`. Without `reflected.status`, the pixels of
-    /// mirrors (by the name list) are taken as resolved; without a name list, `names` is empty:
-    /// see [`Frame::assign_names`].
-    pub fn read_exr(path: impl AsRef<Path>) -> Result<Self, FrameError> {
-        let channels = Channels::read(path)?;
+    /// mirrors are taken as resolved: of those that the name list calls mirrors, else of all whose
+    /// `primary.id` shows a `reflected.id` at some pixel. Without a name list, `names` is empty: see
+    /// [`Frame::assign_names`].
+    pub fn from_channels(channels: &Channels) -> Result<Self, FrameError> {
         let primary = if channels.any("primary.") {
             Some(Primary {
                 id: channels.required("primary.id", Channels::integers)?,

@@ -1,5 +1,7 @@
 //! The id → name list, as text in an EXR header and as the source of a derived status.
 
+use std::collections::BTreeSet;
+
 use crate::{Frame, Image, Name, Primary, Reflected, Status};
 
 /// One line an id: `1 object floor`.
@@ -46,32 +48,33 @@ fn parse_line(line: &str) -> Option<Name> {
 }
 
 /// The status of a picture that does not bring one: a mirror's pixel is resolved, everything else
-/// is no mirror. Without the ids of the first surfaces, a pixel with a reflected id is resolved.
+/// is no mirror. Which ids are mirrors the names say; without names, those are that somewhere show
+/// something reflected. Without the ids of the first surfaces, a pixel with a reflected id is
+/// resolved.
 pub(crate) fn derived_status(
     names: &[Name],
     primary: Option<&Primary>,
     reflected_id: &Image<u32>,
 ) -> Image<Status> {
-    match primary {
-        Some(primary) => primary.id.map(|&id| {
-            if is_mirror(names, id) {
-                Status::Resolved
-            } else {
-                Status::NotMirror
-            }
-        }),
-        None => reflected_id.map(|&id| {
-            if id > 0 {
-                Status::Resolved
-            } else {
-                Status::NotMirror
-            }
-        }),
-    }
-}
-
-fn is_mirror(names: &[Name], id: u32) -> bool {
-    names.iter().any(|name| name.id == id && name.mirror)
+    let status = |mirror: bool| {
+        if mirror {
+            Status::Resolved
+        } else {
+            Status::NotMirror
+        }
+    };
+    let Some(Primary { id, .. }) = primary else {
+        return reflected_id.map(|&id| status(id > 0));
+    };
+    let mirrors: BTreeSet<u32> = if names.is_empty() {
+        let pixels = id.pixels().iter().zip(reflected_id.pixels());
+        let reflecting = pixels.filter(|&(&id, &reflected)| id > 0 && reflected > 0);
+        reflecting.map(|(&id, _)| id).collect()
+    } else {
+        let mirrors = names.iter().filter(|name| name.mirror);
+        mirrors.map(|name| name.id).collect()
+    };
+    id.map(|id| status(mirrors.contains(id)))
 }
 
 impl Frame {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use catoptric_frame::{Frame, FrameError, Image, Name, Primary, Reflected, Status};
+use catoptric_frame::{Channels, Frame, FrameError, Image, Name, Primary, Reflected, Status};
 use exr::prelude::*;
 use glam::Vec3;
 
@@ -227,7 +227,6 @@ fn a_missing_status_follows_from_the_names() {
         write_foreign(path, with_layers(), LayerAttributes::default());
         let mut frame = Frame::read_exr(path).unwrap();
         let status = |frame: &Frame| frame.reflected.as_ref().unwrap().status.pixels().to_vec();
-        assert_eq!(status(&frame), [Status::NotMirror; 2]);
         frame.assign_names(names());
         assert_eq!(status(&frame), [Status::NotMirror, Status::Resolved]);
         assert_eq!(frame.names, names());
@@ -253,6 +252,45 @@ fn a_missing_status_follows_from_the_names() {
             frame.reflected.unwrap().status.pixels()[1],
             Status::Resolved
         );
+    });
+}
+
+#[test]
+fn a_missing_status_without_names_follows_from_the_ids() {
+    // Three surfaces: 3 reflects 1 somewhere and nothing elsewhere, 1 and 2 reflect nothing.
+    let id = |x: u32| [1, 2, 3, 3, 3][x as usize];
+    let mut frame = full_frame();
+    frame.names.clear();
+    frame.primary.as_mut().unwrap().id = numbered(|i| id(i % 5));
+    let reflected = frame.reflected.as_mut().unwrap();
+    reflected.id = numbered(|i| u32::from(i == 2));
+    with_path(|path| {
+        frame.write_exr(path).unwrap();
+        let image = read_all_flat_layers_from_file(path).unwrap();
+        let mut layer = image.layer_data.into_iter().next().unwrap();
+        let list = &mut layer.channel_data.list;
+        list.retain(|channel| !channel.name.eq("reflected.status"));
+        exr::image::Image::from_layer(layer)
+            .write()
+            .to_file(path)
+            .unwrap();
+
+        let channels = Channels::read(path).unwrap();
+        let note = channels.status_note().unwrap();
+        assert!(
+            note.contains("frame.exr") && note.contains("reflected.status"),
+            "{note}"
+        );
+        let read = Frame::from_channels(&channels).unwrap();
+        let expected = numbered(|i| match id(i % 5) {
+            3 => Status::Resolved,
+            _ => Status::NotMirror,
+        });
+        assert_eq!(read.reflected.unwrap().status, expected);
+    });
+    with_path(|path| {
+        full_frame().write_exr(path).unwrap();
+        assert_eq!(Channels::read(path).unwrap().status_note(), None);
     });
 }
 
@@ -335,6 +373,7 @@ fn odd_headers_are_refused() {
 
 #[test]
 fn files_that_are_none() {
+    let complaint = |path: &Path| Frame::read_exr(path).unwrap_err().to_string();
     with_path(|path| {
         assert!(
             matches!(Frame::read_exr(path), Err(FrameError::Read { .. })),
@@ -345,10 +384,111 @@ fn files_that_are_none() {
             matches!(Frame::read_exr(path), Err(FrameError::Exr { .. })),
             "not EXR"
         );
+        std::fs::write(path, "").unwrap();
+        assert!(complaint(path).contains("is empty"), "{}", complaint(path));
+        let folder = complaint(path.parent().unwrap());
+        assert!(folder.contains("is a folder"), "{folder}");
+    });
+}
+
+#[test]
+fn a_file_that_was_cut_off_anywhere_is_refused_in_words() {
+    with_path(|path| {
         full_frame().write_exr(path).unwrap();
         let bytes = std::fs::read(path).unwrap();
-        std::fs::write(path, &bytes[..bytes.len() / 2]).unwrap();
-        assert!(Frame::read_exr(path).is_err(), "cut off");
+        for length in 1..bytes.len() {
+            std::fs::write(path, &bytes[..length]).unwrap();
+            let error = Frame::read_exr(path).unwrap_err().to_string();
+            assert!(
+                error.contains("cut off"),
+                "{length} of {}: {error}",
+                bytes.len()
+            );
+        }
+    });
+}
+
+/// A small file whose windows, data and display, are another size: what was there is replaced.
+fn with_window(path: &Path, [left, top, right, bottom]: [i32; 4]) {
+    let mut frame = full_frame();
+    (frame.primary, frame.reflected) = (None, None);
+    frame.write_exr(path).unwrap();
+    let mut bytes = std::fs::read(path).unwrap();
+    for name in ["dataWindow", "displayWindow"] {
+        let attribute = [name.as_bytes(), b"\0box2i\0\x10\0\0\0"].concat();
+        let mut windows = bytes.windows(attribute.len());
+        let at = windows.position(|window| window == attribute).unwrap() + attribute.len();
+        let window = [left, top, right, bottom].map(i32::to_le_bytes).concat();
+        bytes[at..at + 16].copy_from_slice(&window);
+    }
+    std::fs::write(path, bytes).unwrap();
+}
+
+#[test]
+fn windows_are_checked_before_anything_is_decoded() {
+    for (window, said) in [
+        (
+            [0, 0, 999_999_999, 15],
+            "1000000000 × 16 pixels; 33554432 in all",
+        ),
+        ([0, 0, 7, 999_999_999], "8 × 1000000000 pixels"),
+        ([-553_648_128, 0, 8, 6], "553648137 × 7 pixels"),
+        ([0, 0, 999_999_999, 999_999_999], "33554432 in all"),
+        ([0, 0, 5791, 5791], "cannot be in"),
+    ] {
+        with_path(|path| {
+            with_window(path, window);
+            let error = Frame::read_exr(path).unwrap_err().to_string();
+            assert!(error.contains(said), "{window:?}: {error}");
+        });
+    }
+}
+
+#[test]
+fn parts_deep_data_and_channels_without_number_are_refused() {
+    let refused =
+        |channels: Vec<(&str, FlatSamples)>| complaint(channels, LayerAttributes::default());
+    let many = (0..65).map(|index| (&*format!("c{index:02}").leak(), floats([0.0; 2])));
+    let error = refused(many.collect());
+    assert!(error.contains("65 channels; 64"), "{error}");
+
+    with_path(|path| {
+        let part = |name: &str| {
+            let list = rgb()
+                .into_iter()
+                .map(|(name, samples)| AnyChannel::new(name, samples));
+            let channels = AnyChannels::sort(list.collect());
+            let attributes = LayerAttributes::named(name);
+            Layer::new((2, 1), attributes, Encoding::UNCOMPRESSED, channels)
+        };
+        let display = ImageAttributes::new(IntegerBounds::from_dimensions((2, 1)));
+        exr::image::Image::empty(display)
+            .with_layer(part("a"))
+            .with_layer(part("b"))
+            .write()
+            .to_file(path)
+            .unwrap();
+        let error = Frame::read_exr(path).unwrap_err().to_string();
+        assert!(error.contains("2 parts"), "{error}");
+    });
+}
+
+#[test]
+fn no_changed_byte_of_a_header_brings_the_program_down() {
+    with_path(|path| {
+        let mut frame = full_frame();
+        (frame.primary, frame.reflected) = (None, None);
+        frame.write_exr(path).unwrap();
+        let bytes = std::fs::read(path).unwrap();
+        for at in 0..bytes.len() {
+            for changed in [0, 0x7f, 0xff] {
+                let mut bytes = bytes.clone();
+                bytes[at] = changed;
+                std::fs::write(path, bytes).unwrap();
+                // Whatever comes of it; what counts is that it comes, soon and in little memory.
+                let _ = Frame::read_exr(path);
+            }
+        }
     });
 }
 

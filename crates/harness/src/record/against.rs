@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::metric::{Better, Metric, Unit};
 use super::metrics;
-use super::path::lookup;
+use super::path::{lookup, number};
 
 /// Adapters round differently by about this share; less than that is no change.
 const ROUNDING: f64 = 1e-3;
@@ -120,7 +120,7 @@ fn text(row: &Value, key: &str) -> String {
 
 /// How a metric moved; `None` within noise or where neither row has it.
 fn change(then: &Value, now: &Value, metric: &'static Metric) -> Option<What> {
-    let value = |row: &Value| lookup(row, &metric.path).and_then(Value::as_f64);
+    let value = |row: &Value| number(row, &metric.path);
     let (before, after) = (value(then), value(now));
     let timed = metric.unit == Unit::Milliseconds;
     if timed && then["adapter"] != now["adapter"] {
@@ -130,6 +130,7 @@ fn change(then: &Value, now: &Value, metric: &'static Metric) -> Option<What> {
         (None, None) => return None,
         (None, Some(_)) => Verdict::Appeared,
         (Some(_), None) => Verdict::Vanished,
+        (Some(a), Some(b)) if a == b => return None,
         (Some(a), Some(b)) => {
             let mad = |row: &Value| {
                 lookup(row, "time_ms.frame.mad")
@@ -201,6 +202,20 @@ mod tests {
                 ("time_ms.frame.median", Verdict::Better)
             ]
         );
+    }
+
+    #[test]
+    fn a_picture_that_becomes_equal_is_better() {
+        let row = |color: Value| {
+            let mut row = row(1.0, 10.0);
+            row["color"] = color;
+            row
+        };
+        let near = row(json!({ "psnr": 30.0, "equal": false }));
+        let equal = row(json!({ "psnr": null, "equal": true }));
+        assert_eq!(moved(&near, &equal), [("color.psnr", Verdict::Better)]);
+        assert_eq!(moved(&equal, &near), [("color.psnr", Verdict::Worse)]);
+        assert_eq!(moved(&equal, &equal), []);
     }
 
     #[test]

@@ -6,7 +6,7 @@ use crate::exit::bad_input;
 use crate::suggest::suggest;
 
 use super::metrics;
-use super::path::lookup;
+use super::path::number;
 
 /// A bound on one metric.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,7 +50,7 @@ impl Gate {
     pub fn trips(&self, row: &Value) -> Option<String> {
         let sign = if self.at_most { "<=" } else { ">=" };
         let (path, bound) = (&self.path, self.bound);
-        match lookup(row, path).and_then(Value::as_f64) {
+        match number(row, path) {
             None => Some(format!(
                 "{path} {sign} {bound}: the metric is null here, so nothing is shown to hold"
             )),
@@ -110,6 +110,16 @@ mod tests {
         let gate = Gate::parse("object_agreement>=0.97").unwrap();
         assert_eq!(gate.trips(&json!({ "object_agreement": 0.98 })), None);
         assert!(gate.trips(&json!({ "object_agreement": 0.9 })).is_some());
+    }
+
+    #[test]
+    fn equal_pictures_are_the_best_there_is() {
+        let gate = Gate::parse("color.psnr>=60").unwrap();
+        let row = |equal: bool| json!({ "color": { "psnr": null, "equal": equal } });
+        assert_eq!(gate.trips(&row(true)), None);
+        assert!(gate.trips(&row(false)).is_some());
+        let wrong_way = Gate::parse("color.psnr<=60").unwrap();
+        assert!(wrong_way.trips(&row(true)).is_some());
     }
 
     #[test]

@@ -7,6 +7,18 @@ pub fn lookup<'v>(row: &'v Value, path: &str) -> Option<&'v Value> {
     path.split('.').try_fold(row, |value, name| value.get(name))
 }
 
+/// The number at a path. What is null only since nothing could be better (the signal-to-noise ratio
+/// of equal pictures, which `equal` beside it says) is infinity.
+pub fn number(row: &Value, path: &str) -> Option<f64> {
+    let value = lookup(row, path)?;
+    let beside = path.rsplit_once('.').map(|(place, _)| format!("{place}.equal"));
+    let is_equal = || beside.and_then(|beside| lookup(row, &beside)?.as_bool());
+    match value.is_null() && is_equal() == Some(true) {
+        true => Some(f64::INFINITY),
+        false => value.as_f64(),
+    }
+}
+
 /// Dotted path and value of everything in an object that is not itself an object.
 pub fn leaves(value: &Value) -> Vec<(String, Value)> {
     let Some(object) = value.as_object() else {

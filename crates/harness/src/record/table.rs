@@ -94,7 +94,7 @@ const COLOR: &[Row] = &[
     row("rmse", "RMSE", "root mean squared colour error{}", Plain, Low,
         "Root of the mean squared error of linear red, green and blue{}."),
     row("psnr", "PSNR", "PSNR{}", Decibels, High,
-        "Peak signal-to-noise ratio against a peak of 1{}; null where the pictures are equal."),
+        "Peak signal-to-noise ratio against a peak of 1{}; null where the pictures are equal, which `equal` says."),
     row("ssim", "SSIM", "SSIM{}", Plain, High,
         "Structural similarity of the luma, 1 where equal{}."),
     row("flip", "FLIP", "FLIP{}", Plain, Low, "Mean perceived difference (FLIP), 0 to 1{}."),
@@ -102,6 +102,8 @@ const COLOR: &[Row] = &[
         "Mean of (t − f)² / (f² + 0.01){}."),
     row("mrse", "MRSE", "relative squared error as pbrt prints it{}", Plain, Low,
         "Mean of (t − f)² / (f + 0.01)²{}."),
+    row("left_out", "left out", "pixels without a colour error{}", Count, Neither,
+        "Pixels that are not finite in either picture and are left out of the colour errors{}."),
 ];
 
 const ALL: &[&str] = &["mean", "p50", "p95", "p99", "max"];

@@ -137,7 +137,9 @@ fn change(then: &Value, now: &Value, metric: &'static Metric) -> Option<What> {
                     .and_then(Value::as_f64)
                     .unwrap_or(0.0)
             };
-            let noise = if timed {
+            let noise = if !a.is_finite() {
+                0.0
+            } else if timed {
                 (3.0 * SIGMA_PER_MAD * mad(then).hypot(mad(now))).max(TIME_NOISE * a.abs())
             } else {
                 ROUNDING * a.abs()

@@ -11,7 +11,9 @@ pub fn lookup<'v>(row: &'v Value, path: &str) -> Option<&'v Value> {
 /// of equal pictures, which `equal` beside it says) is infinity.
 pub fn number(row: &Value, path: &str) -> Option<f64> {
     let value = lookup(row, path)?;
-    let beside = path.rsplit_once('.').map(|(place, _)| format!("{place}.equal"));
+    let beside = path
+        .rsplit_once('.')
+        .map(|(place, _)| format!("{place}.equal"));
     let is_equal = || beside.and_then(|beside| lookup(row, &beside)?.as_bool());
     match value.is_null() && is_equal() == Some(true) {
         true => Some(f64::INFINITY),

@@ -7,8 +7,9 @@ use serde_json::{Value, json};
 use super::metrics;
 use super::row::Record;
 
-/// Fields that this version of the record has not had from the start: earlier ones lack them.
-const LATER: [&str; 1] = ["resolved_by"];
+/// Fields that this version of the record has not had from the start, wherever they stand: earlier
+/// ones lack them.
+const LATER: [&str; 3] = ["resolved_by", "equal", "left_out"];
 
 /// The schema of an array of records.
 pub fn records() -> Value {
@@ -25,9 +26,12 @@ pub fn records() -> Value {
         "type": "array",
         "items": Value::from(schema)["items"],
     });
-    if let Some(required) = schema["items"]["required"].as_array_mut() {
-        required.retain(|name| !LATER.iter().any(|later| name == later));
-    }
+    let is_later = |name: &Value| LATER.iter().any(|later| name == later);
+    each_object(&mut schema["items"], &mut |object| {
+        if let Some(required) = object.get_mut("required").and_then(Value::as_array_mut) {
+            required.retain(|name| !is_later(name));
+        }
+    });
     each_number(&mut schema["items"], "", &mut |path, number| {
         if let Some(metric) = metrics::at(path) {
             number["description"] = metric.what.clone().into();
@@ -46,6 +50,15 @@ pub fn numbers(records: &Value) -> Vec<String> {
         }
     });
     paths
+}
+
+/// Calls `then` with the schema of every object.
+fn each_object(schema: &mut Value, then: &mut impl FnMut(&mut Value)) {
+    then(schema);
+    let properties = schema.get_mut("properties").and_then(Value::as_object_mut);
+    for property in properties.into_iter().flat_map(|all| all.values_mut()) {
+        each_object(property, then);
+    }
 }
 
 /// Calls `then` with the path and the schema of every number.
@@ -236,8 +249,9 @@ mod tests {
             "type",
         ];
         /// What says how a value is written, or nothing at all; sizes of arrays.
-        const IGNORED: [&str; 6] = [
+        const IGNORED: [&str; 7] = [
             "$schema",
+            "default",
             "description",
             "format",
             "maxItems",

@@ -82,6 +82,13 @@ fn is_of_the_path(kind: io::ErrorKind) -> bool {
     )
 }
 
+/// Says on stderr what is odd in a scene's files, though it can be shown.
+pub fn warn(scene: &catoptric_scene::Scene) {
+    for warning in &scene.warnings {
+        eprintln!("catoptric: warning: {warning}");
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use anyhow::Context;

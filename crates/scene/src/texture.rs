@@ -25,9 +25,9 @@ impl Picture {
     /// Reads a file and looks at its header.
     pub(crate) fn open(path: &Path) -> Result<Self, String> {
         let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
-        let format = match image::guess_format(&bytes) {
-            Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => format,
-            _ => return Err("is neither a PNG nor a JPEG picture".to_owned()),
+        let Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) = image::guess_format(&bytes)
+        else {
+            return Err("is neither a PNG nor a JPEG picture".to_owned());
         };
         let (width, height) = image::ImageReader::with_format(Cursor::new(&bytes), format)
             .into_dimensions()

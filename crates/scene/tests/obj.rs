@@ -431,7 +431,7 @@ fn what_a_scene_may_make_is_limited_and_said_before_it_is_made() {
         (
             "[[mirror]]\nshape = \"cylinder\"\nn = 2048\nsegments = 4096\n".to_owned(),
             7,
-            ["`shape` makes 50319360 triangles,", "the most is 10000000"],
+            ["`shape` makes 50323456 triangles,", "the most is 10000000"],
         ),
         (
             "[[object]]\nshape = \"grid\"\nn = 1600\n".repeat(2),

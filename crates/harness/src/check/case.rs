@@ -155,7 +155,7 @@ fn case(file: &Path, scene: &str, args: &Request, common: &Common) -> anyhow::Re
             resolution: Some(channels.size()),
         },
     )?;
-    crate::run::load::warn(&scene);
+    crate::exit::warn(&scene);
     let stale = sidecar.scene_hash.filter(|hash| *hash != scene.hash);
     let truths = truths(&channels, sidecar.bounces, args, common)?;
     let starts = match args.start {

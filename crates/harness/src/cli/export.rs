@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use crate::exit::{Outcome, bad_input};
 use crate::export::mitsuba;
 use crate::options::Common;
-use crate::run::load::{load_options, warn};
+use crate::run::load::load_options;
 
 /// What `export` is asked.
 #[derive(Clone, Debug, clap::Args)]
@@ -24,7 +24,7 @@ pub fn run(args: &Args, common: &Common) -> anyhow::Result<Outcome> {
         return Err(bad_input("--bounces must be at least 1: a mirror reflects"));
     }
     let scene = catoptric_scene::open(name, &load_options(common))?;
-    warn(&scene);
+    crate::exit::warn(&scene);
     if folder.exists() && !folder.is_dir() {
         return Err(bad_input(format!(
             "cannot write into {}: it is no folder",

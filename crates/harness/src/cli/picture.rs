@@ -8,12 +8,12 @@ use catoptric_scene::Scene;
 use crate::exit::{Outcome, bad_input};
 use crate::options::Common;
 use crate::output::check_writable;
-use crate::run::load::{load_options, warn};
+use crate::run::load::load_options;
 
 /// A scene by its name.
 pub fn open(name: &str, common: &Common) -> anyhow::Result<Scene> {
     let scene = catoptric_scene::open(name, &load_options(common))?;
-    warn(&scene);
+    crate::exit::warn(&scene);
     Ok(scene)
 }
 

@@ -4,7 +4,7 @@ use anyhow::Context;
 use catoptric_reflect::{Gpu, Prefer, Spec, SpecError};
 use catoptric_scene::{LoadOptions, Scene, SceneError, builtin};
 
-use crate::exit::bad_input;
+use crate::exit::{bad_input, warn};
 use crate::options::Common;
 
 /// Loads a scene. A built-in one whose model is missing is no error but has nothing to show, with a
@@ -19,13 +19,6 @@ pub fn load(name: &str, options: &LoadOptions) -> anyhow::Result<Result<Scene, S
             Ok(Err(error.to_string()))
         }
         Err(error) => Err(error.into()),
-    }
-}
-
-/// Says what is odd in a scene's files, though it can be shown.
-pub fn warn(scene: &Scene) {
-    for warning in &scene.warnings {
-        eprintln!("catoptric: warning: {warning}");
     }
 }
 

@@ -2,8 +2,9 @@
 //!
 //! The corners are looked at along that axis of space which is nearest to the face's normal (by
 //! Newell's sum, which holds for faces that are not quite flat, too). Dropping a coordinate keeps
-//! what is straight straight, to the last bit, where a rotation into the plane would not. The
-//! ears are cut by `earcut`. It leaves out corners on a straight side at times; these are put
+//! what is straight straight, to the last bit, where a rotation into the plane would not. A convex
+//! face is a fan around its first corner, as other renderers split it; of others, ears are cut by
+//! `earcut`. It leaves out corners on a straight side at times; these are put
 //! back, so that a neighbour that has them too still shares all edges.
 
 use earcut::{Earcut, deviation};
@@ -35,6 +36,12 @@ impl Triangulator {
             return self.triangles.as_chunks().0;
         }
         project(corners, &mut self.points);
+        if is_convex(&self.points) {
+            for corner in 1..corners.len() as u32 - 1 {
+                self.triangles.extend([0, corner, corner + 1]);
+            }
+            return self.triangles.as_chunks().0;
+        }
         let points = self.points.iter().map(DVec2::to_array);
         self.earcut.earcut(points, &[], &mut self.triangles);
         for triangle in self.triangles.as_chunks_mut::<3>().0 {
@@ -156,6 +163,18 @@ fn project(corners: &[DVec3], points: &mut Vec<DVec2>) {
 /// Twice the area, positive where the corners run counter-clockwise.
 fn area(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     (b - a).perp_dot(c - a)
+}
+
+/// Whether a face turns left at every corner, and is seen whole from its first: then it is convex
+/// and goes around once.
+fn is_convex(points: &[DVec2]) -> bool {
+    let count = points.len();
+    let turns = |corner: usize| {
+        let [a, b, c] = [0, 1, 2].map(|step| points[(corner + step) % count]);
+        area(a, b, c) > 0.0
+    };
+    let seen = |corner: usize| area(points[0], points[corner], points[corner + 1]) > 0.0;
+    (0..count).all(turns) && (1..count - 1).all(seen)
 }
 
 /// Whether two sides cross at a point inside both.

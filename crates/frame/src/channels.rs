@@ -55,7 +55,7 @@ struct Channel {
 impl Channels {
     /// Reads a file of one part whose data window is its display window; see
     /// [`exr`](crate::exr) for what else is accepted. The header is checked before anything is
-    /// decoded: [`MOST_PIXELS`] and [`MOST_CHANNELS`] at most.
+    /// decoded: `MOST_PIXELS` and `MOST_CHANNELS` at most.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, FrameError> {
         let path = path.as_ref();
         let read_error = |source| FrameError::Read {

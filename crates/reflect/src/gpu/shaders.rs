@@ -4,7 +4,7 @@
 //! A program's features are the names in its `@if(…)` and those of the modules it imports.
 //!
 //! Where one module of a folder is to be chosen by number, a line `//each FOLDER: CODE` stands for
-//! its code once a module of `FOLDER`, with `$name` and `$number` ([`number_in`]) put in: a new
+//! its code once a module of `FOLDER`, with `$name` and `$number` (`number_in`) put in: a new
 //! module there needs no other line.
 
 use include_dir::{Dir, include_dir};

@@ -1,5 +1,6 @@
 //! Pipelines: linked shaders with their entry points, layouts and targets.
 
+use std::collections::BTreeMap;
 use std::ops::Deref;
 
 use super::device::Gpu;
@@ -13,7 +14,8 @@ const MAX_GROUPS: u32 = 65535;
 /// A program of `shaders/`, linked and compiled.
 pub(crate) struct Module {
     module: wgpu::ShaderModule,
-    text: String,
+    /// Of its compute entry points.
+    workgroups: BTreeMap<String, [u32; 3]>,
 }
 
 impl Deref for Module {
@@ -33,7 +35,8 @@ pub(crate) fn module(gpu: &Gpu, program: &str, features: &[&str]) -> Result<Modu
             label: Some(program),
             source: wgpu::ShaderSource::Wgsl(text.as_str().into()),
         });
-    Ok(Module { module, text })
+    let workgroups = shaders::workgroup_sizes(&text);
+    Ok(Module { module, workgroups })
 }
 
 fn pipeline_layout(gpu: &Gpu, layouts: &[Option<&wgpu::BindGroupLayout>]) -> wgpu::PipelineLayout {
@@ -82,8 +85,8 @@ pub(crate) fn compute(
     entry: &str,
     layouts: &[Option<&wgpu::BindGroupLayout>],
 ) -> Kernel {
-    let workgroup = shaders::workgroup_size(&module.text, entry);
-    let workgroup = workgroup.unwrap_or_else(|| panic!("no compute entry point `{entry}`"));
+    let workgroup = module.workgroups.get(entry);
+    let workgroup = *workgroup.unwrap_or_else(|| panic!("no compute entry point `{entry}`"));
     let pipeline = gpu
         .device
         .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {

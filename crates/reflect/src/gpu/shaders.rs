@@ -1,19 +1,30 @@
 //! Shader sources, linked by WESL when a pipeline is built.
 //!
-//! `shaders/shared/` holds modules to import; every other file is a program with entry points.
+//! A file with entry points is a program. `shaders/shared/` holds modules that programs import; a
+//! folder of programs, such as `cubemap_trace/`, may hold modules that these alone import.
 //! A program's features are the names in its `@if(…)` and those of the modules it imports.
 //!
 //! Where one module of a folder is to be chosen by number, a line `//each FOLDER: CODE` stands for
 //! its code once a module of `FOLDER`, with `$name` and `$number` (`number_in`) put in: a new
 //! module there needs no other line.
 
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
 use include_dir::{Dir, include_dir};
 use wesl::{ManglerKind, VirtualResolver, Wesl};
 
-static SHADERS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../../shaders");
+static SHADERS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/../../shaders");
 
-/// Files below `dir`: path without extension, and text.
-fn files<'a>(dir: &'a Dir<'a>, into: &mut Vec<(String, &'a str)>) {
+/// All modules: path without extension, and text.
+static MODULES: LazyLock<Vec<(String, &str)>> = LazyLock::new(|| {
+    let mut modules = Vec::new();
+    files(&SHADERS, &mut modules);
+    modules
+});
+
+/// Appends the files below `dir`.
+fn files(dir: &'static Dir<'static>, into: &mut Vec<(String, &'static str)>) {
     for file in dir.files() {
         if let (Some("wesl"), Some(text)) = (
             file.path()
@@ -36,14 +47,12 @@ fn files<'a>(dir: &'a Dir<'a>, into: &mut Vec<(String, &'a str)>) {
 /// # Errors
 /// The linker's message, naming the module.
 pub fn link(program: &str, features: &[&str]) -> Result<String, String> {
-    let mut modules = Vec::new();
-    files(&SHADERS, &mut modules);
     let mut resolver = VirtualResolver::new();
     let module = |name: &str| format!("package::{}", name.replace('/', "::"));
-    for (name, text) in &modules {
+    for (name, text) in MODULES.iter() {
         let path = module(name);
         let path = path.parse().map_err(|error| format!("{name}: {error}"))?;
-        resolver.add_module(path, expanded(text, &modules).into());
+        resolver.add_module(path, expanded(text, &MODULES).into());
     }
     let mut compiler = Wesl::new_barebones().set_custom_resolver(resolver);
     compiler
@@ -77,9 +86,7 @@ fn names_in<'m>(folder: &str, modules: &'m [(String, &str)]) -> Vec<&'m str> {
 
 /// The number by which shaders choose a module of a folder; `None` if it is not there.
 pub(crate) fn number_in(folder: &str, name: &str) -> Option<u32> {
-    let mut modules = Vec::new();
-    files(&SHADERS, &mut modules);
-    let names = names_in(folder, &modules);
+    let names = names_in(folder, &MODULES);
     let index = names.iter().position(|other| *other == name);
     index.map(|index| index as u32)
 }
@@ -102,19 +109,22 @@ fn expanded(text: &str, modules: &[(String, &str)]) -> String {
     lines.join("\n")
 }
 
-/// Threads of a workgroup of an entry point, as the linked text says; `None` if it has no such
-/// compute entry point, or is not valid.
-pub(crate) fn workgroup_size(text: &str, entry: &str) -> Option<[u32; 3]> {
-    let module = naga::front::wgsl::parse_str(text).ok()?;
-    let mut entries = module.entry_points.iter();
-    let found = entries.find(|point| point.name == entry);
-    let found = found.filter(|point| point.stage == naga::ShaderStage::Compute)?;
-    Some(found.workgroup_size)
+/// Threads of a workgroup of each compute entry point, as the linked text says; none if the text is
+/// not valid.
+pub(crate) fn workgroup_sizes(text: &str) -> BTreeMap<String, [u32; 3]> {
+    let Ok(module) = naga::front::wgsl::parse_str(text) else {
+        return BTreeMap::new();
+    };
+    let entries = module.entry_points.into_iter();
+    let compute = entries.filter(|point| point.stage == naga::ShaderStage::Compute);
+    compute
+        .map(|point| (point.name, point.workgroup_size))
+        .collect()
 }
 
 #[cfg(test)]
 pub(crate) mod tests {
-    use std::collections::{BTreeMap, BTreeSet};
+    use std::collections::BTreeSet;
     use std::fs;
     use std::path::Path;
 
@@ -132,9 +142,7 @@ pub(crate) mod tests {
 
     /// Every program and its features.
     fn programs() -> Vec<(String, Vec<String>)> {
-        let mut modules = Vec::new();
-        files(&SHADERS, &mut modules);
-        let modules: BTreeMap<_, _> = modules.into_iter().collect();
+        let modules: BTreeMap<_, _> = MODULES.iter().cloned().collect();
         let programs = modules.iter().filter(|(_, text)| is_program(text));
         programs
             .map(|(name, _)| {
@@ -233,10 +241,9 @@ pub(crate) mod tests {
     #[test]
     fn workgroups_have_the_size_that_the_shader_states() {
         let text = "const SIDE: u32 = 4u; @compute @workgroup_size(2 * SIDE, SIDE) fn idle() {}";
-        assert_eq!(workgroup_size(text, "idle"), Some([8, 4, 1]));
-        assert_eq!(workgroup_size(text, "busy"), None);
-        let drawn = "@fragment fn idle() {}";
-        assert_eq!(workgroup_size(drawn, "idle"), None);
+        let stated = BTreeMap::from([("idle".to_owned(), [8, 4, 1])]);
+        assert_eq!(workgroup_sizes(text), stated);
+        assert!(workgroup_sizes("@fragment fn idle() {}").is_empty());
     }
 
     #[test]
@@ -269,7 +276,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn every_file_is_a_shared_module_or_a_program_that_is_linked() {
+    fn every_file_is_a_program_or_a_module_that_programs_import() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
         let folder = root.join("../../shaders");
         let (mut shaders, mut sources) = (Vec::new(), Vec::new());
@@ -279,19 +286,36 @@ pub(crate) mod tests {
             .iter()
             .map(|path| fs::read_to_string(path).expect("text"));
         let sources: String = sources.collect();
-        let programs: BTreeSet<_> = programs().into_iter().map(|(name, _)| name).collect();
+        let modules: BTreeMap<_, _> = MODULES.iter().cloned().collect();
+        let importers = |module: &str| {
+            let path = format!("package::{}::", module.replace('/', "::"));
+            let importing = modules.iter().filter(|(_, text)| text.contains(&path));
+            importing.map(|(name, _)| name.clone()).collect::<Vec<_>>()
+        };
         for path in shaders {
-            let name = path
-                .strip_prefix(&folder)
-                .expect("below")
-                .with_extension("");
+            let name = path.strip_prefix(&folder).expect("below");
+            let name = name.with_extension("");
             let name = name.to_str().expect("plain").replace('\\', "/");
-            let shared = name.starts_with("shared/");
-            assert_eq!(programs.contains(&name), !shared, "{name}: entry points");
-            assert!(
-                shared || sources.contains(&format!("\"{name}\"")),
-                "no source names the program {name}"
-            );
+            let (room, _) = name.split_once('/').unwrap_or_default();
+            if is_program(modules[&name]) {
+                assert_ne!(room, "shared", "{name} has entry points");
+                let quoted = format!("\"{name}\"");
+                assert!(sources.contains(&quoted), "no source names {name}");
+            } else if room == "shared" {
+                let shape = name.starts_with("shared/shape/");
+                assert!(
+                    shape || !importers(&name).is_empty(),
+                    "nobody imports {name}"
+                );
+            } else {
+                let importers = importers(&name);
+                let near =
+                    |other: &String| !room.is_empty() && other.starts_with(&format!("{room}/"));
+                assert!(
+                    !importers.is_empty() && importers.iter().all(near),
+                    "{name} is for programs of its folder, not for {importers:?}"
+                );
+            }
         }
     }
 

@@ -164,7 +164,7 @@ impl CubeMaps {
             }
         });
         let faces = faces.collect();
-        let module = module(gpu, "cubemap_faces", &[])?;
+        let module = module(gpu, "cubemaps", &[])?;
         let layouts = [Some(&world.view_layout), None, Some(&world.surface_layout)];
         let entries = |vertex, fragment| RasterEntries {
             module: &module,
@@ -415,7 +415,11 @@ mod tests {
 
     #[test]
     fn the_maps_lie_as_shaders_read_them() {
-        for program in ["environment_map", "cubemap_trace", "distance_pyramid"] {
+        for program in [
+            "environment_map",
+            "cubemap_trace/march",
+            "cubemap_trace/pyramid",
+        ] {
             assert_layout!(
                 MapsUniform {
                     size,

@@ -68,7 +68,7 @@ impl Composite {
             depth: false,
         };
         let layouts = [Some(&world.view_layout), Some(&layout)];
-        let module = module(gpu, "composite", &[])?;
+        let module = module(gpu, "stage/composite", &[])?;
         Ok(Self {
             color: target(gpu, "color", world.size, FLOAT4),
             pipeline: raster(gpu, &module, "color", targets, &layouts, &[]),

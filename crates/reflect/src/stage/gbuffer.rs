@@ -46,7 +46,7 @@ impl GBuffer {
             .mirrors
             .iter()
             .map(|mirror| group(gpu, &draw_layout, &[mirror.uniform.as_entire_binding()]));
-        let module = module(gpu, "gbuffer", &[])?;
+        let module = module(gpu, "stage/gbuffer", &[])?;
         let corner = wgpu::VertexBufferLayout {
             array_stride: 36,
             step_mode: wgpu::VertexStepMode::Vertex,

@@ -123,7 +123,7 @@ mod tests {
                 color,
                 object
             },
-            "primary",
+            "stage/primary",
             &[],
             "Corner"
         );
@@ -137,7 +137,7 @@ mod tests {
                 width,
                 height
             },
-            "primary",
+            "stage/primary",
             &[],
             "Material"
         );

@@ -82,7 +82,7 @@ mod tests {
                 more_z,
                 sizes
             },
-            "gbuffer",
+            "stage/gbuffer",
             &[],
             "Mirror"
         );

@@ -23,7 +23,7 @@ pub(crate) struct Primary {
 
 impl Primary {
     pub(crate) fn new(gpu: &Gpu, world: &World) -> Result<Self, ReflectError> {
-        let module = module(gpu, "primary", &[])?;
+        let module = module(gpu, "stage/primary", &[])?;
         let layouts = [Some(&world.view_layout), None, Some(&world.surface_layout)];
         let pipeline = |entry, colors| {
             let targets = RasterTargets {

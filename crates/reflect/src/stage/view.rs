@@ -91,7 +91,7 @@ mod tests {
                 horizon,
                 nadir
             },
-            "composite",
+            "stage/composite",
             &[],
             "View"
         );

@@ -28,7 +28,11 @@ impl Fill {
         let own_layout = layout(gpu, "fill", &[Slot::Texture; 2]);
         let views = [view(&color), view(&position)];
         let resources = views.each_ref().map(wgpu::BindingResource::TextureView);
-        let module = module(gpu, "cubemap_fill", if trace { &["later"] } else { &[] })?;
+        let module = module(
+            gpu,
+            "cubemap_trace/fill",
+            if trace { &["later"] } else { &[] },
+        )?;
         Ok(Self {
             pass: PerPixel::new(gpu, stage, &module, &own_layout),
             group: group(gpu, &own_layout, &resources),

@@ -45,7 +45,7 @@ impl Lanes {
         resources.extend(views.iter().map(wgpu::BindingResource::TextureView));
         let view_layout = Some(&stage.world.view_layout);
         let mirror_layout = Some(&stage.gbuffer.mirror_layout);
-        let pixels = module(gpu, "mirror_pixels", &[])?;
+        let pixels = module(gpu, "cubemap_trace/mirror_pixels", &[])?;
         let listing = |entry| {
             let layouts = [view_layout, mirror_layout, Some(&write_layout)];
             compute(gpu, &pixels, entry, &layouts)
@@ -68,7 +68,7 @@ impl Lanes {
                 format!("the lanes of a ray agree in workgroup memory{none}")
             }
         };
-        let lanes = module(gpu, "cubemap_lanes", &features)?;
+        let lanes = module(gpu, "cubemap_trace/lanes", &features)?;
         let layouts = [
             view_layout,
             mirror_layout,

@@ -53,7 +53,7 @@ impl March {
         stage: &Stage,
         own_layout: &wgpu::BindGroupLayout,
     ) -> Result<Self, ReflectError> {
-        let module = module(gpu, "cubemap_trace", &features(options))?;
+        let module = module(gpu, "cubemap_trace/march", &features(options))?;
         Ok(Self {
             trace: PerPixel::new(gpu, stage, &module, own_layout),
             effort: Effort::of(gpu, stage, &module, own_layout),
@@ -93,7 +93,7 @@ impl Effort {
         stage: &Stage,
         own_layout: &wgpu::BindGroupLayout,
     ) -> Result<Self, ReflectError> {
-        let module = module(gpu, "cubemap_trace", features)?;
+        let module = module(gpu, "cubemap_trace/march", features)?;
         Ok(Self::of(gpu, stage, &module, own_layout))
     }
 
@@ -119,7 +119,7 @@ impl Effort {
     }
 }
 
-/// Twin of `RAY` in `shared/rays.wesl`.
+/// Twin of `RAY` in `cubemap_trace/rays.wesl`.
 const RAY: usize = 256;
 
 /// Whether the texel of an effort image is of a pixel that a map resolved.

@@ -52,7 +52,7 @@ impl Pyramid {
         });
         let groups = groups.collect();
         let pipeline = |features: &[&str]| -> Result<_, ReflectError> {
-            let module = module(gpu, "distance_pyramid", features)?;
+            let module = module(gpu, "cubemap_trace/pyramid", features)?;
             Ok(compute(gpu, &module, "reduce", &[Some(&layout)]))
         };
         Ok(Self {

@@ -63,7 +63,7 @@ fn what_three_options_link_is_valid() {
         .collect();
     assert!(sets.len() > 100, "{}", sets.len());
     for features in &sets {
-        let module = parsed("cubemap_trace", features);
+        let module = parsed("cubemap_trace/march", features);
         Validator::new(ValidationFlags::all(), Capabilities::default())
             .validate(&module)
             .unwrap_or_else(|error| panic!("{features:?}: {error:?}"));

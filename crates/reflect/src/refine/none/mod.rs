@@ -19,7 +19,7 @@ impl Recipe for Unrefined {
     fn make(&self, context: &Context<'_>) -> Result<Box<dyn Refine>, ReflectError> {
         let Context { gpu, stage, .. } = context;
         let slots = [Slot::Read];
-        let raster = Raster::new(gpu, context.drawn, stage, "virtual", &[], &slots)?;
+        let raster = Raster::new(gpu, context.drawn, stage, "stage/virtual", &[], &slots)?;
         let originals = Originals::new(context);
         let found = originals.batches.iter().map(|batch| {
             let found = batch.found.as_entire_binding();

@@ -22,7 +22,7 @@ impl Step {
     }
 }
 
-/// The entry points of `tessellation.wesl` in the order in which they run, and of `tally.wesl`.
+/// The entry points of `tessellation/kernels.wesl` in the order in which they run, and of `tessellation/tally.wesl`.
 pub(super) struct Kernels {
     pub begin: Step,
     pub classify: Step,
@@ -42,7 +42,7 @@ impl Kernels {
     pub(super) fn new(context: &Context<'_>, rule: Rule) -> Result<Self, ReflectError> {
         use Slot::{Read, Uniform, Write};
         let Context { gpu, stage, .. } = context;
-        let program = |features: &[&str]| module(gpu, "tessellation", features);
+        let program = |features: &[&str]| module(gpu, "tessellation/kernels", features);
         let plain = program(&[])?;
         let judging = match rule.threshold {
             None => &program(&["full"])?,
@@ -85,7 +85,7 @@ impl Kernels {
             split,
             judge: kernel(judging, "judge", &judge_slots, answered),
             tally: kernel(
-                &module(gpu, "tally", &[])?,
+                &module(gpu, "tessellation/tally", &[])?,
                 "tally",
                 &[Read, Read, Write],
                 alone,

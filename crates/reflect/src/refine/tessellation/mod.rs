@@ -127,7 +127,7 @@ impl Tessellation {
         gpu.queue.write_buffer(buffer, 0, &totals);
     }
 
-    /// Twin of `usable` in `virtual.wesl`, but for what lies behind the eye's plane.
+    /// Twin of `usable` in `stage/virtual.wesl`, but for what lies behind the eye's plane.
     fn is_drawn(&self, states: [u32; 3]) -> bool {
         if self.extends {
             states.contains(&Found::FOUND) && !states.contains(&Found::FAILED)

@@ -1,4 +1,4 @@
-//! The tessellation loop recorded: `tessellation.wesl`, `tally.wesl`.
+//! The tessellation loop recorded: `tessellation/kernels.wesl`, `tessellation/tally.wesl`.
 
 use encase::{ShaderSize, StorageBuffer};
 use glam::{Vec3, Vec4};
@@ -137,7 +137,7 @@ impl Passes {
             gpu,
             context.drawn,
             stage,
-            "virtual",
+            "stage/virtual",
             &["split"],
             &[Slot::Read; 4],
         )?;

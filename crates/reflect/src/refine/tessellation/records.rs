@@ -1,24 +1,24 @@
-//! Records that the loop's kernels share, as `tessellation.wesl` and `shared/triangle.wesl` read
+//! Records that the loop's kernels share, as `tessellation/kernels.wesl` and `shared/triangle.wesl` read
 //! them.
 
 use encase::ShaderType;
 use glam::{UVec3, UVec4};
 
-/// Twin of `Settings` in `tessellation.wesl`.
+/// Twin of `Settings` in `tessellation/kernels.wesl`.
 #[derive(Clone, Copy, Debug, ShaderType)]
 pub(crate) struct Settings {
     pub threshold: f32,
     pub level: u32,
 }
 
-/// Twin of `Chunk` in `tessellation.wesl`.
+/// Twin of `Chunk` in `tessellation/kernels.wesl`.
 #[derive(Clone, Copy, Debug, ShaderType)]
 pub(crate) struct Chunk {
     pub first: u32,
     pub count: u32,
 }
 
-/// Twin of `Level` in `tessellation.wesl`, as far as the CPU reads it.
+/// Twin of `Level` in `tessellation/kernels.wesl`, as far as the CPU reads it.
 #[derive(Clone, Copy, Debug, ShaderType)]
 pub(crate) struct Level {
     pub groups: UVec3,
@@ -30,7 +30,7 @@ pub(crate) struct Level {
     pub index: u32,
 }
 
-/// Twin of `Totals` in `tessellation.wesl`.
+/// Twin of `Totals` in `tessellation/kernels.wesl`.
 #[derive(Clone, Copy, Debug, ShaderType)]
 pub(crate) struct Totals {
     pub by_level: [u32; 12],
@@ -63,7 +63,7 @@ mod tests {
 
     #[test]
     fn records_lie_as_the_shaders_read_them() {
-        let program = "tessellation";
+        let program = "tessellation/kernels";
         assert_layout!(Settings { threshold, level }, program, &[], "Settings");
         assert_layout!(Chunk { first, count }, program, &[], "Chunk");
         assert_layout!(
@@ -97,7 +97,7 @@ mod tests {
                 places,
                 level
             },
-            "virtual",
+            "stage/virtual",
             &["split"],
             "Triangle"
         );

@@ -1,4 +1,4 @@
-//! Twin of `tessellation.wesl`: the edge error and the loop. New points are searched by the GPU's
+//! Twin of `tessellation/kernels.wesl`: the edge error and the loop. New points are searched by the GPU's
 //! own search, which has a twin of its own, so that what differs here is the tessellation's.
 
 use glam::{IVec2, Vec2, Vec3};

@@ -24,8 +24,6 @@ struct ObjectOrder {
     refine: Box<dyn Refine>,
     /// What the search is like.
     properties: Properties,
-    /// The search tells of each of the scene's vertices.
-    tells_of_vertices: bool,
     /// A frame has been rendered: its answers may serve the next.
     has_previous: bool,
 }
@@ -69,7 +67,6 @@ pub(crate) fn prepare(
         search,
         refine,
         properties,
-        tells_of_vertices: !refinement.properties().interpolates,
         has_previous: false,
     }))
 }
@@ -109,7 +106,6 @@ impl Technique for ObjectOrder {
 
     fn output(&self, gpu: &Gpu) -> Output {
         let efforts = self.refine.efforts(gpu, &self.stage);
-        let hierarchy = self.properties.has_holes && self.tells_of_vertices;
         Output {
             frame: self.stage.layers(gpu),
             may_be_unresolved: false,
@@ -117,7 +113,7 @@ impl Technique for ObjectOrder {
             searched: efforts.searched,
             triangles: Some(self.refine.triangles(gpu, &self.stage)),
             t_junctions: (self.refine).t_junctions(gpu, &self.stage, self.search.as_ref()),
-            work: efforts.mean(hierarchy),
+            work: efforts.mean(self.properties.has_holes),
             notes: self.refine.notes(),
         }
     }

@@ -93,9 +93,6 @@ pub struct Properties {
     pub walks: bool,
     /// Triangles are split.
     pub splits_triangles: bool,
-    /// Vertices have their answers from points of a grid that are searched: what a search tells of a
-    /// point, such as a hole, is told of no vertex.
-    pub interpolates: bool,
     /// A frame is found more easily after another one.
     pub carries_over: bool,
     /// Vertices behind the tangent plane are continued, so that triangles are drawn that the mirror
@@ -112,7 +109,6 @@ impl Properties {
         has_holes: false,
         walks: false,
         splits_triangles: false,
-        interpolates: false,
         carries_over: false,
         continues_hidden: false,
         may_be_unresolved: false,
@@ -125,7 +121,6 @@ impl Properties {
             has_holes: self.has_holes || other.has_holes,
             walks: self.walks || other.walks,
             splits_triangles: self.splits_triangles || other.splits_triangles,
-            interpolates: self.interpolates || other.interpolates,
             carries_over: self.carries_over || other.carries_over,
             continues_hidden: self.continues_hidden || other.continues_hidden,
             may_be_unresolved: self.may_be_unresolved || other.may_be_unresolved,

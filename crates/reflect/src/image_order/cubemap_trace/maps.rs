@@ -6,7 +6,7 @@ use encase::ShaderType;
 use super::options::CubemapTrace;
 use super::pyramid::Pyramid;
 use crate::error::ReflectError;
-use crate::gpu::{Gpu, Recorder, Slot, group, uniform};
+use crate::gpu::{Gpu, Recorder, Slot, group, set_uniform, uniform};
 use crate::image_order::cubemaps::{CubeMaps, Wanted, array_view};
 use crate::stage::Stage;
 use crate::stage::extent::diagonal;
@@ -14,7 +14,7 @@ use crate::stage::extent::diagonal;
 /// Slots of group 3 behind those of the maps: `Trace`, pyramid, normals.
 pub(crate) const MORE: &[Slot] = &[Slot::Uniform, Slot::Textures, Slot::Textures];
 
-/// Twin of `Trace` in `shared/rays.wesl`.
+/// Twin of `Trace` in `cubemap_trace/rays.wesl`.
 #[derive(Clone, Copy, Debug, ShaderType)]
 pub(crate) struct TraceUniform {
     /// Of a ray, world units.
@@ -56,6 +56,8 @@ impl TraceUniform {
 pub(crate) struct MirrorMaps {
     pub maps: CubeMaps,
     pub pyramid: Option<Pyramid>,
+    /// A [`TraceUniform`].
+    trace: wgpu::Buffer,
     /// Group 3 of the passes that trace.
     pub group: wgpu::BindGroup,
 }
@@ -88,8 +90,15 @@ impl MirrorMaps {
         Ok(Self {
             maps,
             pyramid,
+            trace,
             group,
         })
+    }
+
+    /// Makes maps that are drawn in every frame, and rays, fit what has moved.
+    pub(crate) fn refresh(&mut self, gpu: &Gpu, trace: &TraceUniform, stage: &Stage) {
+        self.maps.refresh(gpu, stage);
+        set_uniform(gpu, &self.trace, trace);
     }
 
     /// Draws the maps and builds the pyramid over them.
@@ -108,7 +117,7 @@ mod tests {
 
     #[test]
     fn the_settings_of_rays_lie_as_shaders_read_them() {
-        for program in ["cubemap_trace", "cubemap_lanes"] {
+        for program in ["cubemap_trace/march", "cubemap_trace/lanes"] {
             assert_layout!(
                 TraceUniform {
                     length,

@@ -65,8 +65,7 @@ impl Recipe for CubemapTrace {
 
 /// The technique, ready for a scene.
 struct Tracing {
-    /// The maps are drawn anew in every frame.
-    every_frame: bool,
+    options: CubemapTrace,
     mirrors: Vec<MirrorMaps>,
     tracer: Tracer,
     fill: Option<Fill>,
@@ -119,12 +118,17 @@ impl Tracing {
             Tracer::Fragment(March::new(gpu, options, stage, &own_layout)?)
         };
         Ok(Self {
-            every_frame: options.maps.update == Update::Frame,
+            options: *options,
             tracer,
             fill,
             effort,
             mirrors,
         })
+    }
+
+    /// The maps are drawn anew in every frame.
+    fn draws_every_frame(&self) -> bool {
+        self.options.maps.update == Update::Frame
     }
 
     fn has_pyramid(&self) -> bool {
@@ -150,9 +154,10 @@ impl Tracing {
 impl ImageOrder for Tracing {
     /// Maps stay where they were placed; drawn in every frame, they show what moved.
     fn update(&mut self, gpu: &Gpu, stage: &Stage) -> Result<(), ReflectError> {
-        if self.every_frame {
+        if self.draws_every_frame() {
+            let trace = TraceUniform::new(&self.options, &stage.world.scene);
             for mirror in &mut self.mirrors {
-                mirror.maps.refresh(gpu, stage);
+                mirror.refresh(gpu, &trace, stage);
             }
         }
         let fill = self.fill.as_mut();
@@ -160,7 +165,7 @@ impl ImageOrder for Tracing {
     }
 
     fn record(&self, frame: &mut Recorder<'_>, stage: &Stage, variant: Variant) {
-        if self.every_frame {
+        if self.draws_every_frame() {
             self.record_maps(frame, stage);
         }
         let groups: Vec<_> = self.mirrors.iter().map(|mirror| &mirror.group).collect();

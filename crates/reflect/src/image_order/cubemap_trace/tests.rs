@@ -115,6 +115,42 @@ fn a_mirror_that_moved_is_seen_where_it_is() {
 }
 
 #[test]
+fn rays_grow_with_the_scene_where_maps_are_drawn_in_every_frame() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let still = scene("sphere-square");
+    let mut grown = still.clone();
+    let mut far = grown.objects[0].clone();
+    for position in &mut far.mesh.positions {
+        *position = 3.0 * *position;
+    }
+    grown.objects[0] = far;
+    for criterion in ["analytic", "distance"] {
+        let technique = format!(
+            "cubemap-trace(size=64,objects=1,update=frame,placement=scene,criterion={criterion})"
+        );
+        let spec = parse(&technique).expect("a technique");
+        let ready = |scene: &Scene| {
+            let mut scene = scene.clone();
+            scene.mirrors[0].cubemaps = vec![scene.camera.eye];
+            let prepared = crate::prepare(&gpu, &spec, &scene, SIZE).expect("fits the device");
+            (prepared, scene)
+        };
+        let picture = |prepared: &mut crate::Prepared<'_>| {
+            let output = prepared.render().expect("renders");
+            let reflected = output.frame.reflected.expect("all layers");
+            (output.frame.color, reflected.id, output.work.samples)
+        };
+        let (mut moving, _) = ready(&still);
+        let before = picture(&mut moving);
+        let (mut fresh, grown) = ready(&grown);
+        moving.update(&grown).expect("the same scene");
+        let moved = picture(&mut moving);
+        assert_ne!(before.0, moved.0, "{criterion}");
+        assert_eq!(moved, picture(&mut fresh), "{criterion}");
+    }
+}
+
+#[test]
 fn lanes_find_what_fragments_find_texel_by_texel() {
     let Some(gpu) = gpu_or_skip() else { return };
     let scene = scene("sphere-table");

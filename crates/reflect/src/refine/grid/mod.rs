@@ -26,7 +26,7 @@ use crate::stage::options::Depth;
 use crate::stage::points::{Efforts, Points};
 use crate::stage::raster::Raster;
 use crate::stage::variant::Variant;
-use crate::technique::{Info, Named, Properties};
+use crate::technique::{Info, Named};
 use cells::{Cells, Pose};
 
 options! {
@@ -56,13 +56,6 @@ impl Grid {
 }
 
 impl Recipe for Grid {
-    fn properties(&self) -> Properties {
-        Properties {
-            interpolates: true,
-            ..Properties::NONE
-        }
-    }
-
     /// A vertex that is reflected needs those of its cell's corners too that are not. Where there is
     /// no cell, it is the search as asked for.
     fn wants_continued(&self) -> bool {
@@ -201,7 +194,7 @@ impl Interpolation {
             // Between images in space there are only images in space.
             drawn.depth = Depth::Virtual;
         }
-        let raster = Raster::new(gpu, drawn, stage, "virtual", &[], &[Slot::Read])?;
+        let raster = Raster::new(gpu, drawn, stage, "stage/virtual", &[], &[Slot::Read])?;
         let read = Slot::Read;
         let layout = layout(gpu, "grid", &[read, read, read, read, read, Slot::Write]);
         let continued = context.continued.then_some("continued");

@@ -60,6 +60,23 @@ fn fraction_one_bypasses_the_grid_and_a_tenth_searches_a_tenth() {
 }
 
 #[test]
+fn what_the_search_takes_is_told_with_a_grid_too() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let scene = scene("sphere-objects-1k");
+    let work = |technique| {
+        let output = ready(&gpu, &scene, technique).render().expect("renders");
+        (output.work.evaluations, output.work.node_tests)
+    };
+    let (evaluations, node_tests) = work("ray-hierarchy+grid");
+    assert!(evaluations >= Some(1.0) && node_tests >= Some(1.0));
+    assert_eq!(
+        work("ray-hierarchy"),
+        work("ray-hierarchy+grid(fraction=1)")
+    );
+    assert_eq!(work("linear+grid").1, None, "there is no hierarchy");
+}
+
+#[test]
 fn interpolation_is_as_exact_as_the_cells_are_small() {
     // Mean offsets of a prototype in pixels of a 512 × 512 picture, by the edge of the cells in
     // radii. It had vertices around the sphere, not those that nearly touch it, where cells

@@ -8,6 +8,7 @@ use crate::color::ColorMaps;
 use crate::coverage::{Layers, is_reflecting, rim};
 use crate::edges::edge_offset;
 use crate::flip::DEFAULT_PIXELS_PER_DEGREE;
+use crate::more::More;
 use crate::record::{ColorError, Comparison, Coverage, Mismatch, NonFinite, Region, Regions};
 use crate::stats::Summary;
 
@@ -64,6 +65,7 @@ pub fn compare_with(
             rim: region(&layers, &colors, in_rim),
             interior: region(&layers, &colors, |index| in_mask(index) && !in_rim(index)),
         },
+        more: More::of(&layers),
     })
 }
 

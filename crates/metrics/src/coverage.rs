@@ -124,16 +124,15 @@ impl<'frames> Layers<'frames> {
         if reference == 0 || reference != test {
             return None;
         }
-        let mirror_point = self.mirror_point.pixels()[index].as_dvec3();
-        let [a, b] = [self.reference, self.test]
-            .map(|layer| layer.position.pixels()[index].as_dvec3() - mirror_point);
+        let [a, b] = self.hits(index);
         Some(angle_deg(a, b))
     }
 
-    /// From the reference's mirror point to what it shows there.
-    pub fn hit(&self, index: usize) -> DVec3 {
-        let hit = self.reference.position.pixels()[index].as_dvec3();
-        hit - self.mirror_point.pixels()[index].as_dvec3()
+    /// From the reference's mirror point to what reference and technique show there.
+    pub fn hits(&self, index: usize) -> [DVec3; 2] {
+        let mirror_point = self.mirror_point.pixels()[index].as_dvec3();
+        [self.reference, self.test]
+            .map(|layer| layer.position.pixels()[index].as_dvec3() - mirror_point)
     }
 
     /// How the reference's hit moves from a pixel to another; `None` unless both are mirror pixels

@@ -12,6 +12,7 @@ mod edges;
 mod filter;
 pub mod flip;
 pub mod maps;
+mod more;
 mod pixel;
 pub mod record;
 mod ssim;
@@ -24,6 +25,7 @@ pub use flip::{FlipStats, flip};
 pub use maps::{
     Colormap, CoverageClass, MapKind, color_bar, colorize, colorize_coverage, error_map,
 };
+pub use more::More;
 pub use pixel::pixel_angle_deg;
 pub use record::{ColorError, Comparison, Coverage, Mismatch, NonFinite, Region, Regions};
 pub use stats::{PairedDifference, Summary, Timing, paired};

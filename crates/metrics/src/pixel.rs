@@ -40,7 +40,7 @@ pub fn pixel_angle_deg(reference: &Frame) -> Result<Option<Summary>, MetricsErro
             .then(|| to(index + 1))
             .flatten()
             .zip(to(index + width));
-        let hit = layers.hit(index);
+        let hit = layers.hits(index)[0];
         steps.into_iter().flat_map(move |(right, down)| {
             PLACES.map(|(x, y)| angle_deg(hit, hit + x * right + y * down))
         })

@@ -4,6 +4,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::more::More;
 use crate::stats::Summary;
 
 /// Everything that comparing two pictures yields.
@@ -29,6 +30,8 @@ pub struct Comparison {
     pub non_finite: NonFinite,
     /// The same by region.
     pub regions: Regions,
+    /// Metrics that are one number each.
+    pub more: More,
 }
 
 /// Coverage of the mirror pixels. Shares are of `mirror_pixels` and `None` if that is 0.

@@ -3,7 +3,7 @@
 //! * `report` sets the machine up and writes the comparison report.
 //! * `test` sets the machine up and runs every test.
 //! * `ci` does what a change must pass: formatting, lints, documentation, `test`.
-//! * `new` writes what a new search, refinement or image-order technique starts from.
+//! * `new` writes what a new technique or a new metric starts from.
 //! * `embree` measures Embree beside our ray tracer, on the same rays.
 //!
 //! Each step is printed before it runs; the first that fails ends the chore with its exit code.

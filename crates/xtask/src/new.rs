@@ -16,6 +16,8 @@ pub enum Kind {
     Refinement,
     /// Finds what each mirror pixel's reflected ray hits
     ImageOrder,
+    /// Measures how far a picture is off, in one number
+    Metric,
 }
 
 /// A file to write, and the text it is written from.
@@ -36,6 +38,8 @@ struct Line {
 enum Place {
     /// Behind the last line that begins so.
     Behind(&'static str),
+    /// Before the first line that begins so.
+    Before(&'static str),
     /// Among the modules, in the order of their names.
     Module,
 }
@@ -116,12 +120,49 @@ const IMAGE_ORDER: Template = Template {
     ],
 };
 
+const METRIC: Template = Template {
+    files: &[
+        File {
+            path: "crates/metrics/src/more/template_name.rs",
+            text: include_str!("../templates/metric/metric.rs"),
+        },
+        File {
+            path: "crates/metrics/tests/controls/template_name.rs",
+            text: include_str!("../templates/metric/control.rs"),
+        },
+    ],
+    lines: &[
+        Line {
+            path: "crates/metrics/src/more/mod.rs",
+            place: Place::Module,
+            text: "mod template_name;",
+        },
+        Line {
+            path: "crates/metrics/src/more/mod.rs",
+            place: Place::Behind("metrics! {"),
+            text: "    /// TEMPLATE: what the number is.\n    template_name,",
+        },
+        Line {
+            path: "crates/metrics/tests/controls/main.rs",
+            place: Place::Module,
+            text: "mod template_name;",
+        },
+        Line {
+            path: "crates/harness/src/record/table.rs",
+            place: Place::Before("    One(row(\"more."),
+            text: "    One(row(\"more.template_name\", \"template-name\", \"template-name\", Share, High,\n        \
+                   \"TEMPLATE: what the number is.\"), false),",
+        },
+    ],
+};
+
 impl Kind {
     fn template(self) -> &'static Template {
         match self {
             Self::Search => &SEARCH,
             Self::Refinement => &REFINEMENT,
             Self::ImageOrder => &IMAGE_ORDER,
+            Self::Metric => &METRIC,
         }
     }
 }
@@ -182,7 +223,11 @@ pub fn write(root: &Path, kind: Kind, name: &str) -> Result<Vec<PathBuf>> {
     }
     for line in template.lines {
         let path = PathBuf::from(line.path);
-        let old = fs::read_to_string(root.join(&path)).with_context(|| line.path.to_owned())?;
+        let before = writes.iter().position(|(written, _)| *written == path);
+        let old = match before {
+            Some(index) => writes.remove(index).1,
+            None => fs::read_to_string(root.join(&path)).with_context(|| line.path.to_owned())?,
+        };
         let new = with_line(&old, line.place, &name.fill(line.text))
             .with_context(|| format!("{} has no place for `{}`", line.path, line.text))?;
         writes.push((path, new));
@@ -206,6 +251,7 @@ fn with_line(text: &str, place: Place, line: &str) -> Option<String> {
     };
     let at = match place {
         Place::Behind(start) => behind_last(&|old| old.starts_with(start)),
+        Place::Before(start) => lines.iter().position(|old| old.starts_with(start)),
         Place::Module => {
             let name = module(line);
             let next = lines.iter().position(|old| module(old) > name);
@@ -254,6 +300,10 @@ mod tests {
             Some("a 1\na 2\na 3\nb\n")
         );
         assert_eq!(with_line("b\n", place, "a 3"), None);
+        assert_eq!(
+            with_line("b\na 1\na 2\n", Place::Before("a "), "a 0").as_deref(),
+            Some("b\na 0\na 1\na 2\n")
+        );
     }
 
     #[test]

@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// What is made: kind and name.
-const MADE: [[&str; 2]; 3] = [
+const MADE: [[&str; 2]; 4] = [
     ["search", "made-search"],
     ["refinement", "made-refinement"],
     ["image-order", "made-image-order"],
+    ["metric", "made-metric"],
 ];
 
 /// What of the tree is copied.
@@ -97,10 +98,11 @@ fn what_is_made_compiles_and_runs() {
         .parent()
         .expect("the target folder");
     // Third-party crates are found built; ours are built quickly, not for speed.
-    let quickly = ["frame", "reflect", "scene"]
+    let quickly = ["frame", "metrics", "reflect", "scene"]
         .map(|name| format!("--config=profile.release.package.catoptric-{name}.opt-level=0"));
     let output = Command::new(cargo())
-        .args(["test", "--release", "--workspace", "--test=made"])
+        .args(["test", "--release", "--workspace"])
+        .args(["--test=made", "--test=controls"])
         .args(quickly)
         .args(["--", "made_", "every_program_is_valid"])
         .env("CARGO_TARGET_DIR", target)
@@ -111,8 +113,10 @@ fn what_is_made_compiles_and_runs() {
     let stderr = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{stdout}\n{stderr}");
     for [_, name] in MADE {
-        let tests = format!("::{}::tests::", name.replace('-', "_"));
+        let tests = format!("{}::", name.replace('-', "_"));
         assert!(stdout.contains(&tests), "no test of {name}:\n{stdout}");
     }
+    let table = fs::read_to_string(tree.join("crates/harness/src/record/table.rs"));
+    assert!(table.expect("text").contains("\"more.made_metric\""));
     assert!(stdout.contains("every_program_is_valid"), "{stdout}");
 }

@@ -7,7 +7,8 @@ use std::collections::BTreeMap;
 
 use catoptric_frame::{Triangles, Work};
 use catoptric_metrics::{
-    ColorError, Coverage, Mismatch, NonFinite, Regions, Summary, Temporal, Timing, VertexReport,
+    ColorError, Coverage, Mismatch, More, NonFinite, Regions, Summary, Temporal, Timing,
+    VertexReport,
 };
 use schemars::JsonSchema;
 use serde::ser::SerializeMap;
@@ -73,6 +74,8 @@ pub struct Record {
     pub non_finite: Option<NonFinite>,
     /// Rim and interior of the mirrors apart, and the whole picture.
     pub regions: Option<Regions>,
+    /// Metrics of the picture that are one number each.
+    pub more: Option<More>,
     /// Where the numbers come from.
     pub meta: Meta,
     /// Every timing sample; only in recorded runs.
@@ -235,6 +238,7 @@ impl Record {
             mismatch: None,
             non_finite: None,
             regions: None,
+            more: None,
             meta,
             raw: None,
         }

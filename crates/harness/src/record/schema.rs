@@ -8,8 +8,10 @@ use super::metrics;
 use super::row::Record;
 
 /// Fields that this version of the record has not had from the start, wherever they stand: earlier
-/// ones lack them.
-const LATER: [&str; 3] = ["resolved_by", "equal", "left_out"];
+/// ones lack them. So do the members of [`GROWING`].
+const LATER: [&str; 4] = ["resolved_by", "equal", "left_out", "more"];
+/// The field whose members are more from version to version.
+const GROWING: &str = "more";
 
 /// The schema of an array of records.
 pub fn records() -> Value {
@@ -32,6 +34,9 @@ pub fn records() -> Value {
             required.retain(|name| !is_later(name));
         }
     });
+    if let Some(growing) = schema["items"]["properties"][GROWING].as_object_mut() {
+        growing.remove("required");
+    }
     each_number(&mut schema["items"], "", &mut |path, number| {
         if let Some(metric) = metrics::at(path) {
             number["description"] = metric.what.clone().into();

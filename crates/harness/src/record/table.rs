@@ -250,6 +250,8 @@ pub const ENTRIES: &[Entry] = &[
         "the angle at the mirror between the shown and the true point, off the rim"), SUMMARY, NONE),
     Family(row("regions.interior.color", "interior", " off the rim", Plain, Neither,
         ", off the rim"), COLOR, NONE),
+    One(row("more.distance", "distance", "relative error of the reflected distance", Plain, Low,
+        "Median of |t − f| / f, f and t being the true and the shown length of the reflected ray, where the right object is shown."), false),
 ];
 
 impl Entry {

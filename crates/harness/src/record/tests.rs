@@ -2,7 +2,7 @@
 
 use catoptric_frame::{Triangles, Work};
 use catoptric_metrics::{
-    ColorError, Coverage, Discard, Jitter, Mismatch, NonFinite, OffsetShare, Region, Regions,
+    ColorError, Coverage, Discard, Jitter, Mismatch, More, NonFinite, OffsetShare, Region, Regions,
     Summary, Temporal, Timing, VertexReport,
 };
 use serde_json::{Value, json};
@@ -152,6 +152,7 @@ pub fn measured(scene: &str, technique: &str) -> Record {
             rim: region(),
             interior: region(),
         }),
+        more: Some(More::default()),
         raw: Some(Raw {
             frame_ms: vec![4.0, 5.0, 6.0],
             wall_ms: vec![5.0, 6.0, 7.0],

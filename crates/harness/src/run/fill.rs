@@ -26,6 +26,7 @@ pub fn record(
         color,
         non_finite,
         regions,
+        more,
     } = compared.first;
     if coverage.mirror_pixels == 0 {
         row.meta
@@ -41,6 +42,7 @@ pub fn record(
     row.color = color;
     row.non_finite = Some(non_finite);
     row.regions = Some(regions);
+    row.more = Some(more);
     row.against_full = Some(AgainstFull {
         object_agreement: compared.full.object_agreement,
         angular_error_deg: compared.full.angular_error_deg,

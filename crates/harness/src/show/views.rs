@@ -237,7 +237,7 @@ fn scene(name: &str, rows: &[&Record], techniques: &[String]) -> anyhow::Result<
     let [width, height] = rows.first().map_or([0, 0], |row| row.resolution);
     let samples = match measured.as_slice() {
         [] => None,
-        measured => diagrams::distribution(measured, techniques).inline()?,
+        measured => diagrams::distribution(measured, techniques).inline(),
     };
     Ok(Scene {
         samples,

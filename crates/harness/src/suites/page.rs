@@ -96,7 +96,7 @@ pub fn write(
     for (figure, shown) in figures.iter().zip(&shown) {
         let plots = plots(figure, &Results::new(&figure.series, &values));
         for (plot, diagram) in plots.iter().zip(&shown.plots) {
-            let file = plot.file()?.unwrap_or_default();
+            let file = plot.file().unwrap_or_default();
             write_whole(folder.join(&diagram.path), file.as_bytes())?;
         }
     }
@@ -133,7 +133,7 @@ fn show<'p>(
     let results = Results::new(&figure.series, values);
     let mut diagrams = Vec::new();
     for (plot, quantity) in plots(figure, &results).iter().zip(&figure.quantities) {
-        let Some(svg) = plot.inline()? else { continue };
+        let Some(svg) = plot.inline() else { continue };
         let name = pictures::slug(quantity.path);
         diagrams.push(Diagram {
             title: plot.title.clone(),

@@ -1,7 +1,5 @@
 //! Axes: where a value stands on the drawing, and which ticks help to read it.
 
-use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
-
 use crate::show::number::count;
 
 /// How values are laid out along an axis.
@@ -38,25 +36,11 @@ pub struct Extent {
     pub light: Vec<f64>,
 }
 
-impl Ranged for Extent {
-    type FormatOption = DefaultFormatting;
-    type ValueType = f64;
-
-    fn map(&self, place: &f64, (from, to): (i32, i32)) -> i32 {
+impl Extent {
+    /// How far along the axis a place is, 0 to 1.
+    pub fn share(&self, place: f64) -> f64 {
         let [low, high] = self.range;
-        let share = (place - low) / (high - low);
-        from + (f64::from(to - from) * share).round() as i32
-    }
-
-    fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
-        match hint.weight().allow_light_points() {
-            true => self.light.clone(),
-            false => self.bold.clone(),
-        }
-    }
-
-    fn range(&self) -> std::ops::Range<f64> {
-        self.range[0]..self.range[1]
+        (place - low) / (high - low)
     }
 }
 
@@ -114,6 +98,11 @@ impl Axis {
             Scale::Close => linear(low, high, 0.05),
             Scale::Log => log(low, high),
         })
+    }
+
+    /// Whether numbers stand at its ticks.
+    pub fn is_labelled(&self) -> bool {
+        !matches!(self.scale, Scale::Names(_))
     }
 
     /// The label of a tick.

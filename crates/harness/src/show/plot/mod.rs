@@ -1,8 +1,9 @@
 //! Diagrams as SVG: in a page they take its text colour, as files they are light or dark by
 //! themselves.
 //!
-//! [`Plot`] says what to show; axes, grid and lines are drawn by plotters, markers, their names,
-//! the names along an axis and the legend are set by `svg`.
+//! [`Plot`] says what to show, `axis` where a value stands and which ticks there are. `draw` makes
+//! the grid, the axes and the lines, `names` the names along an axis; `svg` adds the markers, their
+//! names and the legend.
 
 mod axis;
 mod data;

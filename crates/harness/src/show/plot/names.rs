@@ -46,23 +46,25 @@ impl Layout {
         }
     }
 
-    /// The names as SVG, `at` their places on the axis.
-    pub fn svg(&self, at: &[(i32, i32)]) -> String {
+    /// The names as SVG: `at` are their places on the axis, from the left, which lies `axis` from the
+    /// top.
+    pub fn svg(&self, at: impl Iterator<Item = f64>, axis: f64) -> String {
         let mut body = String::new();
-        for (lines, (x, y)) in self.lines.iter().zip(at) {
-            let first = y + LINE as i32;
+        let line_height = f64::from(LINE);
+        let first = axis + line_height;
+        for (lines, x) in self.lines.iter().zip(at) {
             let (anchor, turned) = match self.slanted {
                 true => (
                     "end",
-                    format!(" transform=\"rotate(-{SLANT} {x} {first})\""),
+                    format!(" transform=\"rotate(-{SLANT} {x:.1} {first})\""),
                 ),
                 false => ("middle", String::new()),
             };
             for (line, place) in lines.iter().zip(0..) {
                 body += &format!(
-                    "<text x=\"{x}\" y=\"{}\" text-anchor=\"{anchor}\" font-size=\"16\" \
+                    "<text x=\"{x:.1}\" y=\"{}\" text-anchor=\"{anchor}\" font-size=\"16\" \
                      fill=\"currentColor\"{turned}>{}</text>\n",
-                    first + place * LINE as i32,
+                    first + f64::from(place) * line_height,
                     escape(line)
                 );
             }

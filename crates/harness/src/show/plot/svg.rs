@@ -1,19 +1,16 @@
-//! What is set around and upon a drawing: markers and their names, the names along an axis, the
-//! legend, the colours of a page or of a file.
+//! What is set around and upon a drawing: markers and their names, the legend, the colours of a page
+//! or of a file.
 
 use crate::show::html::escape;
 
 use super::data::{Plot, SERIES, WIDTH};
-use super::names::Layout;
 
-/// A drawing without markers, names and legend.
+/// A drawing without markers and legend.
 pub struct Drawn {
-    /// As plotters wrote it.
+    /// Grid, axes and lines.
     pub body: String,
     /// Of the drawing.
     pub height: u32,
-    /// Names along the x axis, and where on it they stand.
-    pub named: Option<(Layout, Vec<(i32, i32)>)>,
     /// In the order in which they are set.
     pub markers: Vec<Marker>,
 }
@@ -62,19 +59,7 @@ pub fn file(drawn: &Drawn, plot: &Plot) -> String {
 
 /// The inside of the SVG, and its height.
 fn complete(drawn: &Drawn, plot: &Plot) -> (String, u32) {
-    let mut body = String::new();
-    // Black is the page's text colour; the first and last line are plotters' own <svg> element.
-    let lines: Vec<&str> = drawn.body.lines().collect();
-    let inner = lines.get(1..lines.len().saturating_sub(1));
-    for line in inner.unwrap_or_default() {
-        body += &line
-            .replace("#000000", "currentColor")
-            .replace(" font-family=\"sans-serif\"", "");
-        body.push('\n');
-    }
-    if let Some((layout, at)) = &drawn.named {
-        body += &layout.svg(at);
-    }
+    let mut body = drawn.body.clone();
     for marker in &drawn.markers {
         let (x, y) = (f64::from(marker.at.0), f64::from(marker.at.1));
         let shape = shape(marker.series, x, y);

@@ -23,5 +23,4 @@ pub mod output;
 pub mod record;
 pub mod run;
 pub mod show;
-pub mod suggest;
 pub mod suites;

@@ -3,19 +3,16 @@
 use std::path::Path;
 
 /// Each room, or file beside the rooms, and what it may know.
-const ROOMS: [(&str, &[&str]); 11] = [
+const ROOMS: [(&str, &[&str]); 10] = [
     ("exit", &[]),
-    ("suggest", &[]),
     ("options", &[]),
     ("output", &["exit"]),
-    ("record", &["exit", "suggest"]),
+    ("record", &["exit"]),
     ("show", &["options", "output", "record"]),
     ("run", &["exit", "options", "record"]),
     (
         "suites",
-        &[
-            "exit", "options", "output", "record", "run", "show", "suggest",
-        ],
+        &["exit", "options", "output", "record", "run", "show"],
     ),
     ("check", &["exit", "options"]),
     ("export", &[]),

@@ -61,7 +61,7 @@ fn is_reflection(shape: &Shape, vertex: DVec3, at: DVec3) -> bool {
 #[test]
 fn constructed_points_are_found() {
     for (shape, most) in [(torus(), 8), (saddle(), 4)] {
-        let mut random = Random(7);
+        let mut random = Random::new(7);
         let (mut counts, mut unknown, mut total, mut worst) = ([0; 9], 0, 0, 0.0f64);
         while total < 3_000 {
             let Some((at, vertex)) = construct(&mut random, &shape) else {
@@ -135,7 +135,7 @@ fn counted(
 
 #[test]
 fn no_solution_is_missed() {
-    let mut random = Random(5);
+    let mut random = Random::new(5);
     let mut checked = 0;
     for _ in 0..24 {
         let vertex = DVec3::new(
@@ -200,7 +200,7 @@ fn an_almost_flat_saddle_is_a_plane() {
         up: DVec3::Y,
         size: DVec2::new(3.0, 2.0),
     });
-    let mut random = Random(3);
+    let mut random = Random::new(3);
     for _ in 0..300 {
         let vertex = DVec3::new(
             random.between(-4.0, 4.0),
@@ -229,7 +229,7 @@ fn in_a_plane_through_the_axis_a_torus_reflects_as_its_circle() {
         center: DVec3::X,
         radius: 0.4,
     });
-    let mut random = Random(9);
+    let mut random = Random::new(9);
     let mut solved = 0;
     for _ in 0..200 {
         let flat = |random: &mut Random| {

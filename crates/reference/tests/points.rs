@@ -75,7 +75,7 @@ fn convex_mirrors_have_exactly_the_constructed_point() {
         ),
     ];
     for (shape, camera, limit) in cases {
-        let mut random = Random(7);
+        let mut random = Random::new(7);
         let (mut worst, mut count) = (0.0f64, 0);
         while count < 20_000 {
             let Some(known) = construct(&mut random, &camera, &shape) else {
@@ -94,7 +94,7 @@ fn convex_mirrors_have_exactly_the_constructed_point() {
 
 #[test]
 fn mirrors_anywhere_of_any_size_are_solved() {
-    let mut random = Random(3);
+    let mut random = Random::new(3);
     for _ in 0..2_000 {
         let size = random.log_between(1e-3, 1e3);
         let center = size * 10.0 * random.direction();
@@ -133,7 +133,7 @@ fn mirrors_anywhere_of_any_size_are_solved() {
 
 #[test]
 fn sphere_hides_what_lies_behind_its_silhouette() {
-    let mut random = Random(11);
+    let mut random = Random::new(11);
     let ball = Shape::Ellipsoid(Ellipsoid {
         center: DVec3::ZERO,
         radii: DVec3::ONE,
@@ -170,7 +170,7 @@ fn sphere_hides_what_lies_behind_its_silhouette() {
 /// no vertex takes the answers for others away.
 #[test]
 fn no_vertex_beside_an_ellipsoid_is_undecided() {
-    let mut random = Random(17);
+    let mut random = Random::new(17);
     for exponent in 0..16 {
         let off = 10f64.powi(-exponent);
         for _ in 0..500 {
@@ -241,7 +241,7 @@ fn eye_and_vertex_on_one_line_with_the_centre() {
 #[test]
 fn bowl_has_all_solutions_and_the_known_shares() {
     let (bowl, camera) = (prototype_bowl(), camera([0.5, 0.35, 4.0], 34.0, [512, 512]));
-    let mut random = Random(5);
+    let mut random = Random::new(5);
     let (mut counts, mut total, mut worst) = ([0usize; 5], 0, 0.0f64);
     while total < 30_000 {
         let Some(known) = construct(&mut random, &camera, &bowl) else {
@@ -267,7 +267,7 @@ fn bowl_has_all_solutions_and_the_known_shares() {
 /// Counts sign changes of the residual around the circle, in the plane of eye and vertex.
 #[test]
 fn no_solution_on_a_sphere_is_missed() {
-    let mut random = Random(13);
+    let mut random = Random::new(13);
     let inside = Shape::Bowl(Bowl {
         center: DVec3::ZERO,
         radius: 1.0,

@@ -511,7 +511,7 @@ fn no_ray_slips_between_triangles() {
     let scene = ball(128);
     let mesh = &scene.objects[0].mesh;
     let tracer = Tracer::new(&scene).unwrap();
-    let mut random = Random(17);
+    let mut random = Random::new(17);
     for index in 0..200_000 {
         let triangle = mesh.triangles[(random.unit() * mesh.triangles.len() as f64) as usize];
         let corner = |i: usize| mesh.positions[triangle[i % 3] as usize].as_dvec3();

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use catoptric_scene::suggest;
 use thiserror::Error;
 
 use crate::options::{OptionInfo, Settled, Value, Values};
@@ -81,24 +82,13 @@ pub enum SpecError {
     Syntax(String),
 }
 
-/// The known name that is likely meant, as a question: one that few letters away, or the only one
-/// that begins so. Else all names.
+/// The known name that is likely meant, as a question; else all names.
 fn hint(word: &str, known: impl Iterator<Item = &'static str> + Clone) -> String {
-    let letters = word.trim_start_matches('+').chars().count();
-    let near = known
-        .clone()
-        .map(|name| (strsim::damerau_levenshtein(word, name), name))
-        .min()
-        .filter(|(distance, _)| *distance <= 2 && 3 * distance <= letters);
-    let mut begun = known.clone().filter(|name| name.starts_with(word));
-    let begun = match (begun.next(), begun.next()) {
-        (Some(name), None) if letters >= 3 => Some(name),
-        _ => None,
-    };
-    match near.map(|(_, name)| name).or(begun) {
-        Some(name) => format!(" (did you mean `{name}`?)"),
-        None => format!("; known: {}", known.collect::<Vec<_>>().join(", ")),
+    let question = suggest(word, known.clone());
+    if question.is_empty() {
+        return format!("; known: {}", known.collect::<Vec<_>>().join(", "));
     }
+    question
 }
 
 fn technique(

@@ -16,7 +16,7 @@ use toml::de::{DeTable, DeValue};
 pub(crate) use self::message::short;
 use self::message::{found, in_a_line};
 use crate::SceneError;
-use crate::error::suggest;
+use crate::suggest::suggest;
 
 /// Largest magnitude of a number in a scene, far inside the range of `f32`.
 const LARGEST: f64 = 1e9;

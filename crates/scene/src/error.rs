@@ -56,18 +56,3 @@ impl SceneError {
         self
     }
 }
-
-/// How alike two names must be (Jaro–Winkler) for one to be taken for the other.
-const ALIKE: f64 = 0.8;
-
-/// ` (did you mean `x`?)` with the most similar of `known`, or nothing if none is close.
-pub(crate) fn suggest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> String {
-    known
-        .into_iter()
-        .map(|candidate| (strsim::jaro_winkler(word, candidate), candidate))
-        .filter(|(similarity, _)| *similarity >= ALIKE)
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map_or_else(String::new, |(_, candidate)| {
-            format!(" (did you mean `{candidate}`?)")
-        })
-}

@@ -42,6 +42,7 @@ mod pose;
 mod primitives;
 mod random;
 pub mod shape;
+mod suggest;
 mod text;
 mod texture;
 
@@ -54,6 +55,7 @@ pub use motion::{CameraPath, Motion, Move, Subject};
 pub use pose::Pose;
 pub use random::Random;
 pub use shape::{MirrorShape, Shape, SurfaceHit};
+pub use suggest::suggest;
 
 use glam::Vec3;
 

@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::error::suggest;
 use crate::file::{Origin, read};
 use crate::loading::Loading;
+use crate::suggest::suggest;
 use crate::{Scene, SceneError, builtin};
 
 /// How to load a scene.

@@ -1,9 +1,9 @@
 //! Gates: `--require METRIC<=X`, checked on every measured row.
 
+use catoptric_scene::suggest;
 use serde_json::Value;
 
 use crate::exit::bad_input;
-use crate::suggest::suggest;
 
 use super::metrics;
 use super::path::number;

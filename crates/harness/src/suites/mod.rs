@@ -46,8 +46,9 @@ mod shelf;
 mod suite;
 mod tessellation;
 
+use catoptric_scene::suggest;
+
 use crate::exit::bad_input;
-use crate::suggest::suggest;
 
 pub use figure::{Figure, Guide, Quantity, Quote};
 pub use results::Results;

@@ -3,48 +3,41 @@
 
 use std::f64::consts::PI;
 
+pub use catoptric_scene::Random;
 use catoptric_scene::shape::{Bowl, Ellipsoid, Sphere};
 use catoptric_scene::{
     Background, Camera, Fov, Material, Mesh, Mirror, Object, Paint, Scene, Shape,
 };
 use glam::{DMat3, DVec2, DVec3, Vec3};
 
-/// SplitMix64 (Steele, Lea and Flood, OOPSLA 2014).
-pub struct Random(pub u64);
+/// Random geometry.
+pub trait Draw {
+    fn log_between(&mut self, low: f64, high: f64) -> f64;
+    fn direction(&mut self) -> DVec3;
+    fn pixel(&mut self, size: [u32; 2]) -> DVec2;
+    fn rotation(&mut self) -> DMat3;
+}
 
-impl Random {
-    /// Uniform in [0, 1).
-    pub fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    pub fn log_between(&mut self, low: f64, high: f64) -> f64 {
+impl Draw for Random {
+    fn log_between(&mut self, low: f64, high: f64) -> f64 {
         self.between(low.ln(), high.ln()).exp()
     }
 
-    pub fn direction(&mut self) -> DVec3 {
+    fn direction(&mut self) -> DVec3 {
         let z = self.between(-1.0, 1.0);
         let around = self.between(0.0, 2.0 * PI);
         let r = (1.0 - z * z).sqrt();
         DVec3::new(r * around.cos(), r * around.sin(), z)
     }
 
-    pub fn pixel(&mut self, size: [u32; 2]) -> DVec2 {
+    fn pixel(&mut self, size: [u32; 2]) -> DVec2 {
         DVec2::new(
             self.between(0.0, f64::from(size[0])),
             self.between(0.0, f64::from(size[1])),
         )
     }
 
-    pub fn rotation(&mut self) -> DMat3 {
+    fn rotation(&mut self) -> DMat3 {
         DMat3::from_axis_angle(self.direction(), self.between(0.0, 2.0 * PI))
     }
 }

@@ -5,10 +5,10 @@ use glam::DVec3;
 use super::surface::{PRIMITIVES, Surface, copies, primitive};
 use super::{Origin, name};
 use crate::document::Table;
-use crate::error::suggest;
 use crate::geometry::Purpose;
 use crate::mesh::{Material, Mesh, Paint};
 use crate::shape::{self, EXACT, Shape};
+use crate::suggest::suggest;
 use crate::{Mirror, SceneError};
 
 /// Reads a mirror, with its mesh if it is one.

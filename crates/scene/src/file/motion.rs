@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use crate::document::{SMALLEST, Table};
-use crate::error::suggest;
 use crate::motion::{CameraPath, Motion, Move, Subject};
+use crate::suggest::suggest;
 use crate::{Camera, Mirror, Object, SceneError};
 
 /// Most frames of a sequence.

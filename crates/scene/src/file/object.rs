@@ -5,11 +5,11 @@ use glam::{DVec3, Vec3};
 use super::surface::{PRIMITIVES, Surface, copies, primitive};
 use super::{Origin, name};
 use crate::document::Table;
-use crate::error::suggest;
 use crate::geometry::{Geometry, Purpose, Transform};
 use crate::mesh::{Material, Mesh, Paint};
 use crate::mtl::DEFAULT_COLOR;
 use crate::primitives::{Inverse, inverse_points};
+use crate::suggest::suggest;
 use crate::{Camera, Mirror, SceneError};
 
 /// An object as written, checked but not built.

@@ -1,5 +1,5 @@
 //! Small stored pictures of every technique: a picture that changes is seen, and explained in the
-//! change that stores it anew (`CATOPTRIC_ACCEPT=1 cargo test -p catoptric --test goldens`).
+//! change that stores it anew (`CATOPTRIC_ACCEPT=1 cargo test --release --workspace --test goldens`).
 //! Skipped without an adapter, unless `CATOPTRIC_REQUIRE_GPU=1`.
 
 mod support;

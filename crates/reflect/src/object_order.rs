@@ -8,7 +8,7 @@ use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder};
 use crate::refine::{self, Refine};
 use crate::search::path::path;
-use crate::search::{self, Account, Search};
+use crate::search::{self, Instrumentation, Search};
 use crate::stage::Stage;
 use crate::stage::options::{Hidden, SearchOptions};
 use crate::stage::points::points_layout;
@@ -51,7 +51,7 @@ pub(crate) fn prepare(
         stage: &stage,
         extends: continues,
         points_layout: &points_layout,
-        account: Account::Efforts,
+        instrumentation: Instrumentation::Efforts,
     })?;
     let refine = refinement.make(&refine::Context {
         gpu,

@@ -7,7 +7,7 @@ use crate::gpu::{Gpu, Prefer};
 use crate::options::{OptionInfo, Options};
 use crate::parse;
 use crate::registry::{Asked, asked};
-use crate::search::{Account, Context, Search};
+use crate::search::{Context, Instrumentation, Search};
 use crate::stage::Stage;
 use crate::stage::options::{Hidden, StageOptions};
 use crate::stage::points::{Points, points_layout};
@@ -62,7 +62,7 @@ impl Searched {
             stage: &stage,
             extends: asked.common.hidden == Hidden::Extend,
             points_layout: &points_layout,
-            account: Account::Efforts,
+            instrumentation: Instrumentation::Efforts,
         });
         let vertices = stage.world.vertices();
         let batch = |_| Points::new(gpu, &points_layout, &stage.world.positions, vertices);

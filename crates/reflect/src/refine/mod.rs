@@ -5,7 +5,7 @@ pub(crate) mod adaptive;
 pub(crate) mod full;
 pub(crate) mod grid;
 pub(crate) mod none;
-mod originals;
+mod scene_vertices;
 pub(crate) mod tessellation;
 
 use catoptric_frame::{Triangles, VertexResult};

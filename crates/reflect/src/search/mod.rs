@@ -101,19 +101,19 @@ pub(crate) struct Context<'a> {
     /// Of [`Points::group`].
     pub points_layout: &'a wgpu::BindGroupLayout,
     /// What the shader of [`Variant::AllLayers`] tells beside its answers.
-    pub account: Account,
+    pub instrumentation: Instrumentation,
 }
 
 /// What a search can tell of itself, and the shader feature for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Account {
+pub(crate) enum Instrumentation {
     /// What each search took.
     Efforts,
     /// Where a single search went: see [`crate::path()`].
     Path,
 }
 
-impl Account {
+impl Instrumentation {
     /// The feature's name.
     pub(crate) fn feature(self) -> &'static str {
         match self {
@@ -149,7 +149,7 @@ impl Pipelines {
             let module = module(gpu, program, features)?;
             Ok(compute(gpu, &module, "search", &layouts))
         };
-        let telling = [features, &[context.account.feature()]].concat();
+        let telling = [features, &[context.instrumentation.feature()]].concat();
         Ok(Self {
             plain: pipeline(features)?,
             telling: pipeline(&telling)?,

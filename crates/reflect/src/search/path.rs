@@ -10,7 +10,7 @@ use glam::Vec3;
 use crate::diagnostics::Visit;
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, storage_bytes};
-use crate::search::{Account, Asked, Context};
+use crate::search::{Asked, Context, Instrumentation};
 use crate::stage::Stage;
 use crate::stage::options::Hidden;
 use crate::stage::points::{Dispatch, Found, Points, Range, points_layout};
@@ -37,7 +37,7 @@ pub(crate) fn path(
         stage,
         extends: asked.common.hidden == Hidden::Extend,
         points_layout: &points_layout,
-        account: Account::Path,
+        instrumentation: Instrumentation::Path,
     })?;
     let range = Range {
         first: 0,

@@ -280,8 +280,8 @@ impl ImageOrder for Rays {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Prefer, parse};
     use crate::testing::{gpu_or_skip, scene, stage};
+    use crate::{Prefer, parse};
 
     /// Object ids at the mirror's pixels.
     fn ids(gpu: &Gpu, technique: &Rays, stage: &Stage) -> Vec<u32> {

@@ -2,7 +2,7 @@
 
 use catoptric_frame::{Triangles, VertexResult};
 
-use super::originals::Originals;
+use super::scene_vertices::SceneVertices;
 use super::{Context, Recipe, Refine};
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder, Slot, group};
@@ -20,15 +20,15 @@ impl Recipe for Unrefined {
         let Context { gpu, stage, .. } = context;
         let slots = [Slot::Read];
         let raster = Raster::new(gpu, context.drawn, stage, "stage/virtual", &[], &slots)?;
-        let originals = Originals::new(context);
-        let found = originals.batches.iter().map(|batch| {
+        let scene_vertices = SceneVertices::new(context);
+        let found = scene_vertices.batches.iter().map(|batch| {
             let found = batch.found.as_entire_binding();
             group(gpu, &raster.own_layout, &[found])
         });
         Ok(Box::new(AsItIs {
             found: found.collect(),
             raster,
-            originals,
+            scene_vertices,
         }))
     }
 }
@@ -36,13 +36,13 @@ impl Recipe for Unrefined {
 /// The scene's own triangles, ready to be drawn.
 struct AsItIs {
     raster: Raster,
-    originals: Originals,
+    scene_vertices: SceneVertices,
     found: Vec<wgpu::BindGroup>,
 }
 
 impl Refine for AsItIs {
     fn begin_frame(&mut self, gpu: &Gpu, stage: &Stage, warm: bool) {
-        self.originals.begin_frame(gpu, stage, warm);
+        self.scene_vertices.begin_frame(gpu, stage, warm);
     }
 
     fn record(
@@ -53,7 +53,8 @@ impl Refine for AsItIs {
         mirror: usize,
         variant: Variant,
     ) {
-        self.originals.record(frame, stage, search, mirror, variant);
+        self.scene_vertices
+            .record(frame, stage, search, mirror, variant);
         let found = &self.found[mirror];
         self.raster
             .record(frame, stage, mirror, found, variant, |pass| {
@@ -62,15 +63,15 @@ impl Refine for AsItIs {
     }
 
     fn vertices(&self, gpu: &Gpu, stage: &Stage) -> Vec<VertexResult> {
-        self.originals.vertices(gpu, stage)
+        self.scene_vertices.vertices(gpu, stage)
     }
 
     fn efforts(&self, gpu: &Gpu, stage: &Stage) -> Efforts {
-        self.originals.efforts(gpu, stage)
+        self.scene_vertices.efforts(gpu, stage)
     }
 
     fn triangles(&self, _gpu: &Gpu, stage: &Stage) -> Triangles {
-        let drawn = u64::from(stage.world.corners / 3) * self.originals.batches.len() as u64;
+        let drawn = u64::from(stage.world.corners / 3) * self.scene_vertices.batches.len() as u64;
         Triangles {
             input: drawn,
             drawn,

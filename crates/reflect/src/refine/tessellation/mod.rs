@@ -20,7 +20,7 @@ mod twin;
 
 use catoptric_frame::{Triangles, VertexResult};
 
-use super::originals::Originals;
+use super::scene_vertices::SceneVertices;
 use super::{Context, Refine};
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder};
@@ -58,7 +58,7 @@ pub(crate) struct Tessellation {
     /// The search starts at the previous frame's answers.
     starts_warm: bool,
     plan: Plan,
-    originals: Originals,
+    scene_vertices: SceneVertices,
     passes: Passes,
 }
 
@@ -71,13 +71,13 @@ impl Tessellation {
     /// As if a shader could see no buffer of more than `binding` bytes.
     fn within(context: &Context<'_>, rule: Rule, binding: u64) -> Result<Self, ReflectError> {
         let plan = Plan::new(context.stage.world.corners / 3, rule.level, binding);
-        let originals = Originals::new(context);
-        let passes = Passes::new(context, rule, plan, &originals)?;
+        let scene_vertices = SceneVertices::new(context);
+        let passes = Passes::new(context, rule, plan, &scene_vertices)?;
         Ok(Self {
             extends: context.drawn.hidden == Hidden::Extend,
             starts_warm: context.search.carries_over,
             plan,
-            originals,
+            scene_vertices,
             passes,
         })
     }
@@ -92,7 +92,7 @@ impl Tessellation {
         mirror: usize,
         mut each: impl FnMut(Leaf),
     ) {
-        let answers = (self.originals.batches[mirror]).read_found(gpu, stage.world.vertices());
+        let answers = (self.scene_vertices.batches[mirror]).read_found(gpu, stage.world.vertices());
         let vertices: Vec<_> = (stage.world.scene.objects.iter())
             .flat_map(|object| object.mesh.positions.iter().copied())
             .collect();
@@ -139,7 +139,7 @@ impl Tessellation {
 
 impl Refine for Tessellation {
     fn begin_frame(&mut self, gpu: &Gpu, stage: &Stage, warm: bool) {
-        self.originals.begin_frame(gpu, stage, warm);
+        self.scene_vertices.begin_frame(gpu, stage, warm);
         self.passes.begin_frame(gpu);
     }
 
@@ -151,7 +151,8 @@ impl Refine for Tessellation {
         mirror: usize,
         variant: Variant,
     ) {
-        self.originals.record(frame, stage, search, mirror, variant);
+        self.scene_vertices
+            .record(frame, stage, search, mirror, variant);
         for chunk in 0..self.plan.chunks().count() {
             self.passes
                 .record(frame, stage, search, [mirror, chunk], variant);
@@ -160,11 +161,11 @@ impl Refine for Tessellation {
     }
 
     fn vertices(&self, gpu: &Gpu, stage: &Stage) -> Vec<VertexResult> {
-        self.originals.vertices(gpu, stage)
+        self.scene_vertices.vertices(gpu, stage)
     }
 
     fn efforts(&self, gpu: &Gpu, stage: &Stage) -> Efforts {
-        let mut efforts = self.originals.efforts(gpu, stage);
+        let mut efforts = self.scene_vertices.efforts(gpu, stage);
         let [steps, evaluations, node_tests] = self.passes.effort_sums(gpu);
         efforts.add(Efforts {
             searched: self.passes.totals(gpu).points.into(),
@@ -180,7 +181,7 @@ impl Refine for Tessellation {
         let by_level = totals.by_level[..=self.plan.level as usize].iter();
         let by_level: Vec<_> = by_level.map(|count| u64::from(*count)).collect();
         Triangles {
-            input: u64::from(self.plan.triangles) * self.originals.batches.len() as u64,
+            input: u64::from(self.plan.triangles) * self.scene_vertices.batches.len() as u64,
             drawn: by_level.iter().sum(),
             by_level,
             unfinished: totals.unfinished.into(),
@@ -199,7 +200,7 @@ impl Refine for Tessellation {
             return None;
         }
         let objects = junctions::objects(&stage.world.scene);
-        let mirrors = 0..self.originals.batches.len();
+        let mirrors = 0..self.scene_vertices.batches.len();
         let count = mirrors.map(|mirror| {
             let mut edges = junctions::Edges::default();
             self.leaves(gpu, stage, search, mirror, |leaf| {

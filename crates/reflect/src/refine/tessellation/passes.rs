@@ -11,7 +11,7 @@ use super::rule::Rule;
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder, Slot, dispatch_size, group, uniform};
 use crate::refine::Context;
-use crate::refine::originals::Originals;
+use crate::refine::scene_vertices::SceneVertices;
 use crate::search::Search;
 use crate::stage::Stage;
 use crate::stage::points::{Dispatch, Found, Points, read};
@@ -59,7 +59,7 @@ impl Passes {
         context: &Context<'_>,
         rule: Rule,
         plan: Plan,
-        originals: &Originals,
+        scene_vertices: &SceneVertices,
     ) -> Result<Self, ReflectError> {
         let Context { gpu, stage, .. } = context;
         let world = &stage.world;
@@ -90,7 +90,7 @@ impl Passes {
             let groups = kernels.begin.kernel.groups(count);
             (groups, kernels.begin.group(gpu, &resources))
         });
-        let answers = originals.batches.iter().map(|batch| {
+        let answers = scene_vertices.batches.iter().map(|batch| {
             let found = [&batch.found, &buffers.positions, &points.found];
             let all = [&[&world.positions], &found[..]].concat();
             group(gpu, &kernels.answers_layout, &whole(&all))
@@ -141,7 +141,7 @@ impl Passes {
             &["split"],
             &[Slot::Read; 4],
         )?;
-        let drawn = originals.batches.iter().map(|batch| {
+        let drawn = scene_vertices.batches.iter().map(|batch| {
             let all = [
                 &batch.found,
                 &buffers.finished,

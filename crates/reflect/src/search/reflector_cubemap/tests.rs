@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3, Vec2};
 
 use super::twin::{CubemapStep, CubemapWalk};
 use super::{InMaps, ReflectorCubemap, Settings};
-use crate::search::{Account, Context, Search};
+use crate::search::{Context, Instrumentation, Search};
 use crate::stage::points::Found;
 use crate::stage::points::points_layout;
 use crate::stage::twin::vertices;
@@ -229,7 +229,7 @@ fn maps_are_made_again_for_a_mirror_that_moves_and_only_then() {
         stage: &stage,
         extends: false,
         points_layout: &points_layout(&gpu),
-        account: Account::Efforts,
+        instrumentation: Instrumentation::Efforts,
     };
     let mut search = InMaps::new(&options, &context).expect("can be made");
     let mirrors = scene.mirrors.len() as u32;

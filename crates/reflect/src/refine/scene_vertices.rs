@@ -10,13 +10,13 @@ use crate::stage::points::{Efforts, Points};
 use crate::stage::variant::Variant;
 
 /// One batch a mirror: all vertices of all objects.
-pub(crate) struct Originals {
+pub(crate) struct SceneVertices {
     pub batches: Vec<Points>,
     /// The search tells of holes.
     has_holes: bool,
 }
 
-impl Originals {
+impl SceneVertices {
     pub(crate) fn new(context: &Context<'_>) -> Self {
         let world = &context.stage.world;
         let batch = |_| {

@@ -63,7 +63,7 @@ fn checks_where(installed: impl Fn(&str) -> bool) -> (Vec<Step>, Vec<String>) {
         "clippy --release --workspace --all-targets -- -D warnings",
     ));
     steps.push(Step {
-        env: Some(("RUSTDOCFLAGS", "-Dwarnings")),
+        env: vec![("RUSTDOCFLAGS", "-Dwarnings".to_owned())],
         ..Step::cargo("doc --release --workspace --no-deps")
     });
     (steps, skipped)

@@ -4,6 +4,7 @@
 //! * `test` sets the machine up and runs every test.
 //! * `ci` does what a change must pass: formatting, lints, documentation, `test`.
 //! * `new` writes what a new technique or a new metric starts from.
+//! * `fuzz` feeds made-up input to everything that is read from outside.
 //! * `embree` measures Embree beside our ray tracer, on the same rays.
 //!
 //! Each step is printed before it runs; the first that fails ends the chore with its exit code.
@@ -19,6 +20,7 @@ use std::env;
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::time::{SystemTime, UNIX_EPOCH};
 
 use anyhow::Result;
 use clap::{Parser, Subcommand};
@@ -52,6 +54,15 @@ enum Chore {
     Test,
     /// Check formatting, lints and documentation, then run every test
     Ci,
+    /// Feed made-up scenes, meshes, pictures, names and records to what reads them; every run tries
+    /// other inputs
+    Fuzz {
+        /// In all, shared by the targets
+        #[arg(long, default_value_t = 5.0, value_parser = minutes)]
+        minutes: f64,
+        /// Only this one: scene, mesh, texture, exr, name or record
+        target: Option<String>,
+    },
     /// Measure Embree beside our ray tracer on the same rays, and check that hits agree
     Embree,
     /// Write the files and lines that something new starts from: they compile and run
@@ -98,6 +109,7 @@ fn run(chore: Chore) -> Result<u8> {
             steps.push(test());
             (&[Need::Vulkan, Need::CppCompiler], steps)
         }
+        Chore::Fuzz { minutes, target } => (&[], vec![fuzz(*minutes, target.as_deref())]),
         Chore::Embree => (&[Need::CppCompiler, Need::Embree], vec![]),
         Chore::New { .. } => (&[], vec![]),
     };
@@ -135,6 +147,34 @@ fn report(args: Vec<OsString>) -> Step {
     step
 }
 
+/// A length of time that can be waited for.
+fn minutes(text: &str) -> Result<f64, String> {
+    let minutes: f64 = text.parse().map_err(|error| format!("{error}"))?;
+    let sensible = (0.0..=10_000.0).contains(&minutes);
+    sensible
+        .then_some(minutes)
+        .ok_or_else(|| "0 to 10000".to_owned())
+}
+
+/// The fuzz targets, one after the other, from an input on that no run has begun with.
+fn fuzz(minutes: f64, target: Option<&str>) -> Step {
+    let mut step = Step::cargo("test --release --workspace --test fuzz -- --nocapture");
+    step.args.push("--test-threads=1".into());
+    if let Some(target) = target {
+        step.args.extend(["--exact", target].map(OsString::from));
+    }
+    let now = SystemTime::now().duration_since(UNIX_EPOCH);
+    let first = now.map_or(0, |since| since.as_secs()) << 32;
+    step.env = vec![
+        (
+            "CATOPTRIC_FUZZ_SECONDS",
+            (60.0 * minutes).ceil().to_string(),
+        ),
+        ("CATOPTRIC_FUZZ_FIRST", first.to_string()),
+    ];
+    step
+}
+
 /// Our tracer and Embree, whose program this is.
 fn compare_embree(program: PathBuf) -> Step {
     let mut step = Step::cargo("bench --workspace --bench embree -- --embree");
@@ -145,7 +185,7 @@ fn compare_embree(program: PathBuf) -> Step {
 /// All tests, none of which may be skipped for want of an adapter.
 fn test() -> Step {
     Step {
-        env: Some(("CATOPTRIC_REQUIRE_GPU", "1")),
+        env: vec![("CATOPTRIC_REQUIRE_GPU", "1".to_owned())],
         ..Step::cargo("test --release --workspace")
     }
 }

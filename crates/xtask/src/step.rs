@@ -10,8 +10,8 @@ use anyhow::{Context, Result};
 pub struct Step {
     /// The program.
     pub program: &'static str,
-    /// A variable set for it.
-    pub env: Option<(&'static str, &'static str)>,
+    /// Variables set for it.
+    pub env: Vec<(&'static str, String)>,
     /// Its arguments.
     pub args: Vec<OsString>,
 }
@@ -26,7 +26,7 @@ impl Step {
     pub fn of(program: &'static str, args: &str) -> Self {
         Self {
             program,
-            env: None,
+            env: Vec::new(),
             args: args.split_whitespace().map(OsString::from).collect(),
         }
     }
@@ -52,7 +52,7 @@ impl Step {
         };
         let status = Command::new(program)
             .args(&self.args)
-            .envs(self.env)
+            .envs(self.env.iter().map(|(key, value)| (key, value)))
             .status()
             .with_context(|| format!("cannot run `{}`", self.shown()))?;
         Ok(status

@@ -34,12 +34,12 @@ pub(crate) fn surface(mesh: &Mesh, triangle: usize, barycentric: DVec3) -> Vec3 
 /// The four texels around `uv`, weighted; the picture repeats.
 fn bilinear(image: &Texture, uv: DVec2) -> Vec3 {
     // In texels from the top left, texel centres at whole numbers.
-    let x = uv.x * f64::from(image.width) - 0.5;
-    let y = (1.0 - uv.y) * f64::from(image.height) - 0.5;
+    let x = uv.x * f64::from(image.width()) - 0.5;
+    let y = (1.0 - uv.y) * f64::from(image.height()) - 0.5;
     let wrap = |at: f64, count: u32| (at as i64).rem_euclid(i64::from(count)) as usize;
     let texel = |x: f64, y: f64| {
-        let index = wrap(y, image.height) * image.width as usize + wrap(x, image.width);
-        image.texels[index].as_dvec3()
+        let index = wrap(y, image.height()) * image.width() as usize + wrap(x, image.width());
+        image.texel(index).as_dvec3()
     };
     let (left, top) = (x.floor(), y.floor());
     let (right, bottom) = (left + 1.0, top + 1.0);
@@ -78,11 +78,7 @@ mod tests {
 
     /// Two by two texels: black and red above, green and blue below.
     fn picture() -> Texture {
-        Texture {
-            width: 2,
-            height: 2,
-            texels: vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z],
-        }
+        Texture::linear([2; 2], vec![[0; 3], [255, 0, 0], [0, 255, 0], [0, 0, 255]])
     }
 
     fn painted(paint: Paint, uvs: [Vec2; 3]) -> Mesh {

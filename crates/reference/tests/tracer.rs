@@ -381,12 +381,8 @@ fn supersampling_changes_colour_alone() {
 
 #[test]
 fn textured_quad_shows_its_texels() {
-    let texels = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z];
-    let image = std::sync::Arc::new(catoptric_scene::Texture {
-        width: 2,
-        height: 2,
-        texels,
-    });
+    let texels = vec![[0; 3], [255, 0, 0], [0, 255, 0], [0, 0, 255]];
+    let image = std::sync::Arc::new(catoptric_scene::Texture::linear([2; 2], texels));
     let mut wall = quad(
         "wall",
         Vec3::new(-1.0, -1.0, 0.0),

@@ -155,8 +155,8 @@ impl Hasher {
             Paint::Texture { tint, image } => {
                 self.tag("texture");
                 self.color(*tint);
-                self.counts([&image.width, &image.height]);
-                image.texels.iter().for_each(|texel| self.color(*texel));
+                self.counts([&image.width(), &image.height()]);
+                image.texels().for_each(|texel| self.color(texel));
             }
             Paint::Vertex => self.tag("vertex"),
         }

@@ -26,6 +26,7 @@
 
 pub mod builtin;
 pub mod camera;
+mod coincident;
 mod document;
 mod error;
 mod file;
@@ -38,6 +39,7 @@ pub mod mirror;
 pub mod motion;
 mod mtl;
 mod obj;
+mod picture;
 mod pose;
 mod primitives;
 mod random;
@@ -47,15 +49,17 @@ mod text;
 mod texture;
 
 pub use camera::{Camera, Fov, View};
+pub use coincident::first_of_coincident;
 pub use error::SceneError;
 pub use load::{LoadOptions, open};
-pub use mesh::{Material, Mesh, Paint, Texture};
+pub use mesh::{Material, Mesh, Paint};
 pub use mirror::Mirror;
 pub use motion::{CameraPath, Motion, Move, Subject};
 pub use pose::Pose;
 pub use random::Random;
 pub use shape::{MirrorShape, Shape, SurfaceHit};
 pub use suggest::suggest;
+pub use texture::{Samples, Texture};
 
 use glam::Vec3;
 

@@ -6,6 +6,8 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec2, Vec3};
 
+use crate::texture::Texture;
+
 /// A triangle mesh with unique positions and per-corner attributes.
 ///
 /// Positions are merged when bitwise equal after the transform, so that a search visits each
@@ -102,18 +104,4 @@ pub enum Paint {
     },
     /// The interpolated corner colours.
     Vertex,
-}
-
-/// A picture decoded to linear RGB, to be sampled bilinearly at its finest level with repeat.
-///
-/// Texel (0, 0) is the top left; texture coordinate v = 0 is the bottom edge: the texel centre
-/// of column `i`, row `j` is at `u = (i + ½)/width`, `v = 1 − (j + ½)/height`.
-#[derive(Debug, PartialEq)]
-pub struct Texture {
-    /// Texels a row.
-    pub width: u32,
-    /// Rows.
-    pub height: u32,
-    /// Linear RGB, rows from the top.
-    pub texels: Vec<Vec3>,
 }

@@ -278,8 +278,8 @@ mod tests {
         let Paint::Texture { tint, image } = &paints[1].material.paint else {
             panic!("no texture")
         };
-        assert_eq!((*tint, image.width, image.height), (Vec3::ONE, 2, 1));
-        assert!((image.texels[0].y - 0.215_86).abs() < 1e-5);
+        assert_eq!((*tint, image.width(), image.height()), (Vec3::ONE, 2, 1));
+        assert!((image.texel(0).y - 0.215_86).abs() < 1e-5);
         let Paint::Texture { tint, image: same } = &paints[2].material.paint else {
             panic!("no texture")
         };

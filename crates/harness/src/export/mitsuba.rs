@@ -264,7 +264,8 @@ impl Writer<'_> {
                 )
             }
             Paint::Texture { tint, image } => {
-                let file = self.texture([image.width, image.height], from_bottom(image, *tint))?;
+                let file =
+                    self.texture([image.width(), image.height()], from_bottom(image, *tint))?;
                 format!(
                     r#"            <texture name="radiance" type="bitmap">
                 <string name="filename" value="{file}"/>
@@ -377,8 +378,11 @@ fn attributes(mesh: &Mesh, paint: &Paint, triangle: usize, flipped: bool) -> [Ve
 
 /// The texels of a texture, tinted, with the row of v = 0 first: Mitsuba's v runs down the picture.
 fn from_bottom(image: &Texture, tint: Vec3) -> Vec<Vec3> {
-    let rows = image.texels.chunks_exact(image.width as usize).rev();
-    rows.flatten().map(|texel| tint * *texel).collect()
+    let width = image.width() as usize;
+    let rows = (0..image.height() as usize).rev();
+    rows.flat_map(|row| row * width..(row + 1) * width)
+        .map(|index| tint * image.texel(index))
+        .collect()
 }
 
 /// World from a shape's own axes.

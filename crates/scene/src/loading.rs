@@ -5,14 +5,17 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::mesh::Texture;
-use crate::texture::Picture;
+use crate::picture::Picture;
+use crate::texture::Texture;
 
-/// Most triangles of a scene, in all objects and mesh mirrors with their copies, and most points
-/// (vertices without triangles): some 2 GiB of either while they are made.
-const MOST: u64 = 10_000_000;
+/// Most triangles of a scene, in all objects and mesh mirrors with their copies: 1.7 GB while they are
+/// made and traced.
+const MOST_TRIANGLES: u64 = 4_000_000;
 
-/// Most texels of a scene, in all its textures: 768 MiB.
+/// Most points (vertices without triangles) of a scene.
+const MOST_POINTS: u64 = 10_000_000;
+
+/// Most texels of a scene, in all its textures: 192 MiB, or 384 MiB where they have 16 bits.
 const MOST_TEXELS: u64 = 1 << 26;
 
 /// Shared by all objects and mirrors of a scene while it is loaded.
@@ -28,12 +31,12 @@ pub(crate) struct Loading {
 impl Loading {
     /// Counts triangles that are about to be made, `copies` times; says where they are too many.
     pub(crate) fn triangles(&self, count: u64, copies: usize) -> Result<(), String> {
-        add(&self.triangles, count, copies, "triangles")
+        add(&self.triangles, count, copies, "triangles", MOST_TRIANGLES)
     }
 
     /// Counts points that are about to be made, `copies` times; says where they are too many.
     pub(crate) fn points(&self, count: u64, copies: usize) -> Result<(), String> {
-        add(&self.points, count, copies, "points")
+        add(&self.points, count, copies, "points", MOST_POINTS)
     }
 
     /// The picture in a file, which is read once a scene.
@@ -71,16 +74,16 @@ impl Loading {
     }
 }
 
-fn add(sum: &Cell<u64>, count: u64, copies: usize, what: &str) -> Result<(), String> {
+fn add(sum: &Cell<u64>, count: u64, copies: usize, what: &str, most: u64) -> Result<(), String> {
     let new = count.saturating_mul(copies as u64);
     let all = sum.get().saturating_add(new);
-    if all > MOST {
+    if all > most {
         let times = match copies {
             1 => String::new(),
             _ => format!(" (in {copies} copies)"),
         };
         return Err(format!(
-            "makes {new} {what}{times}, which makes {all} in the scene: the most is {MOST}"
+            "makes {new} {what}{times}, which makes {all} in the scene: the most is {most}"
         ));
     }
     sum.set(all);
@@ -94,12 +97,12 @@ mod tests {
     #[test]
     fn what_is_counted_adds_up() {
         let loading = Loading::default();
-        assert_eq!(loading.triangles(MOST / 2, 2), Ok(()));
-        assert_eq!(loading.points(MOST, 1), Ok(()));
+        assert_eq!(loading.triangles(MOST_TRIANGLES / 2, 2), Ok(()));
+        assert_eq!(loading.points(MOST_POINTS, 1), Ok(()));
         assert_eq!(
             loading.triangles(2, 3).unwrap_err(),
-            "makes 6 triangles (in 3 copies), which makes 10000006 in the scene: the most is \
-             10000000"
+            "makes 6 triangles (in 3 copies), which makes 4000006 in the scene: the most is \
+             4000000"
         );
         assert!(loading.points(u64::MAX, usize::MAX).is_err());
     }

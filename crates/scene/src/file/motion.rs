@@ -5,6 +5,7 @@ use glam::DVec3;
 use crate::document::{SMALLEST, Table};
 use crate::motion::{CameraPath, Motion, Move, Subject};
 use crate::suggest::suggest;
+use crate::shape::Enclosure;
 use crate::{Camera, Mirror, Object, SceneError};
 
 /// Most frames of a sequence.
@@ -125,6 +126,8 @@ fn check(motion: &Motion, camera: &Camera, mirrors: &[Mirror]) -> Result<(), Str
         .enumerate()
         .filter(|(_, mirror)| mirror.shape.is_closed())
         .collect();
+    let meshes = closed.iter().map(|(_, mirror)| mirror.shape.as_mesh());
+    let meshes: Vec<_> = meshes.map(|mesh| mesh.map(Enclosure::new)).collect();
     for frame in 0..motion.frames {
         let time = motion.time(frame);
         let now = motion.camera_at(camera, time);
@@ -137,9 +140,13 @@ fn check(motion: &Motion, camera: &Camera, mirrors: &[Mirror]) -> Result<(), Str
                 "at frame {frame} the viewing direction is parallel to the camera's `up`"
             ));
         }
-        for (index, mirror) in &closed {
+        for ((index, mirror), mesh) in closed.iter().zip(&meshes) {
             let eye = motion.mirror_pose(*index, time).undone(now.eye);
-            if mirror.shape.encloses(eye) {
+            let encloses = match mesh {
+                Some(mesh) => mesh.holds(eye),
+                None => mirror.shape.encloses(eye),
+            };
+            if encloses {
                 let name = &mirror.name;
                 return Err(format!(
                     "at frame {frame} the eye lies inside mirror \"{name}\", which is closed"

@@ -7,6 +7,7 @@
 
 mod bowl;
 mod ellipsoid;
+mod enclosure;
 mod keys;
 mod mesh;
 mod mirror_shape;
@@ -22,6 +23,7 @@ use std::ops::{Deref, DerefMut};
 
 pub use self::bowl::Bowl;
 pub use self::ellipsoid::Ellipsoid;
+pub(crate) use self::enclosure::Enclosure;
 pub use self::mirror_shape::{Facing, MirrorShape, Primitive, ShaderInput, SurfaceHit};
 pub use self::plane::Plane;
 pub use self::saddle::Saddle;

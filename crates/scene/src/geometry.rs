@@ -243,6 +243,8 @@ impl Mesh {
             for corner in (0..3).filter(|corner| lacks[*corner]) {
                 let shared = smooth(triangle)
                     .and_then(|group| sums.get(&(corners[corner], group)))
+                    // Triangles that face each other leave nothing but rounding.
+                    .filter(|sum| sum.length() > 1e-6)
                     .and_then(|sum| sum.try_normalize());
                 let normal = shared.unwrap_or_else(|| self.face_normal(&corners));
                 self.normals[triangle][corner] = normal.as_vec3();

@@ -8,8 +8,8 @@
 //! hit is decided in f64, watertight (Woop, Benthin and Wald 2013).
 //!
 //! The answer depends on the triangles and the ray alone: not on the shape of the hierarchy, nor
-//! on the processor (arithmetic that decides is never fused). Of triangles hit at the very same
-//! distance, the first wins.
+//! on the processor (arithmetic that decides is never fused). Of triangles hit at the same
+//! distance, to rounding ([`EQUAL`]), the first wins.
 
 mod leaf;
 #[cfg(test)]
@@ -19,6 +19,7 @@ mod wide;
 
 use std::ops::Range;
 
+use catoptric_scene::Random;
 use fearless_simd::{Level, dispatch};
 use glam::{DVec3, Vec3, Vec3A};
 use obvhs::aabb::Aabb;
@@ -34,6 +35,10 @@ pub use walk::Work;
 /// of a direction counts as smaller than f32's epsilon; this is also enough for rays that run
 /// along an axis inside a flat box.)
 const PADDING: f64 = 4e-6;
+
+/// Distances are the same if they are apart by no more than this share of the triangles' extent, or
+/// of themselves: some thousand rounding steps of f64, and far below what f32 resolves.
+const EQUAL: f64 = 1e-12;
 
 /// Triangles in a hierarchy.
 pub struct TriangleBvh {
@@ -104,6 +109,26 @@ impl TriangleBvh {
         self.search(origin, dir, t_min..t_max, &mut ())
     }
 
+    /// Nearest triangle with `t_min < t < t_max` along the ray (`dir` of unit length) among those
+    /// that are accepted by their index.
+    pub fn intersect_among(
+        &self,
+        origin: DVec3,
+        dir: DVec3,
+        t_min: f64,
+        t_max: f64,
+        accepts: impl Fn(u32) -> bool,
+    ) -> Option<TriangleHit> {
+        let query = walk::Query {
+            origin,
+            dir,
+            within: t_min..t_max,
+        };
+        let found =
+            dispatch!(self.level, simd => walk::nearest(simd, self, &query, &mut (), &accepts));
+        found.map(|found| found.hit)
+    }
+
     /// As [`Self::intersect`], and what it takes.
     pub fn intersect_counted(
         &self,
@@ -129,7 +154,21 @@ impl TriangleBvh {
             dir,
             within,
         };
-        dispatch!(self.level, simd => walk::nearest(simd, self, &query, observer))
+        let all = |_| true;
+        let found =
+            dispatch!(self.level, simd => walk::nearest(simd, self, &query, observer, &all))?;
+        let mut hit = found.hit;
+        if found.tied {
+            // Each time a lower index, so that it ends.
+            let last = (found.hit.t + found.equal).next_up().min(query.within.end);
+            let first = query.within.start;
+            while let Some(other) =
+                self.intersect_among(origin, dir, first, last, |index| index < hit.triangle)
+            {
+                hit = other;
+            }
+        }
+        Some(hit)
     }
 }
 
@@ -152,8 +191,13 @@ fn build(triangles: &[[Vec3; 3]], center: DVec3, radius: f64) -> Bvh2 {
     let mean = areas().sum::<f32>() / boxes.len() as f32;
     let largest = areas().fold(0.0, f32::max);
     split_aabbs_preset(&mut boxes, &mut indices, &triangles, mean, largest);
-    let padding = Vec3A::splat(((radius * PADDING) as f32).max(f32::MIN_POSITIVE));
+    // Where boxes are alike, or lie evenly in a row, each is as near to its neighbours as to any
+    // other: PLOC would join two of them at a time. So each grows a little more, by chance.
+    let mut random = Random::new(0);
+    let padding = ((radius * PADDING) as f32).max(f32::MIN_POSITIVE);
     for aabb in &mut boxes {
+        let more = [(); 3].map(|()| 1.0 + random.unit() as f32);
+        let padding = padding * Vec3A::from_array(more);
         *aabb = Aabb::new(aabb.min - padding, aabb.max + padding);
     }
     let mut bvh = PlocBuilder::with_capacity(boxes.len()).build(

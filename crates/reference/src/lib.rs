@@ -14,11 +14,13 @@
 //! image coordinates with pixel centres at +½.
 
 pub mod bvh;
+mod check;
 pub mod error;
 mod paint;
 pub mod points;
 pub mod render;
 pub mod tracer;
+mod triangles;
 
 pub use error::{NotAvailable, ReferenceError};
 pub use points::{Solutions, in_view, points_in_view, reflection_points, true_vertices};

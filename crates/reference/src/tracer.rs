@@ -1,25 +1,35 @@
 //! Single rays through a scene: the nearest object or mirror, exactly.
 //!
 //! Objects are two-sided triangles; analytic mirrors are met exactly ([`MirrorShape::intersect`](catoptric_scene::MirrorShape::intersect));
-//! mesh mirrors are triangles with interpolated normals. Where a mirror coincides with an
-//! object, the mirror is met.
+//! mesh mirrors are triangles with interpolated normals.
+//!
+//! Surfaces may coincide. A mirror as far away as an object ([`EQUAL`]) is met before it, and a
+//! mirror's front before a back: a mirror that is written once for each side reflects on both. Of
+//! coincident triangles of objects the first is met.
 //!
 //! A ray that leaves a mirror must not meet it again where it starts. From a mesh, the ray
 //! starts `NUDGE` × the scene's extent off the triangle, on its reflecting side, and so moves
-//! away from it and, where the mesh is convex, from its neighbours. A sphere, an ellipsoid and a
+//! away from it and, where the mesh is convex, from its neighbours; a mesh as near as [`EQUAL`]
+//! lies where it starts, as its other side does. A sphere, an ellipsoid and a
 //! plane are not met again by a ray that leaves them, so they are left out. A bowl is met again
 //! only beyond `BOWL_NUDGE` × its extent.
 
-use catoptric_scene::{Mesh, Scene};
+use catoptric_scene::Scene;
 use glam::{DVec3, Vec3};
 
-use crate::bvh::{TriangleBvh, TriangleHit};
+use crate::bvh::TriangleHit;
+use crate::check::{check, check_count, check_paint};
 use crate::error::ReferenceError;
 use crate::paint;
+use crate::triangles::{Triangles, geometric_normal};
 
 /// Share of the scene's extent by which a reflected ray stays clear of its start: several
 /// thousand rounding steps of f64, and far below what f32 resolves.
 const NUDGE: f64 = 1e-12;
+
+/// Surfaces that are apart by no more than this share of their distance are equally far away: a few
+/// rounding steps of f32, in which coordinates are given.
+const EQUAL: f64 = 1.0 / 1_048_576.0;
 
 /// Share of a bowl's extent within which a ray leaving it does not meet it again: rounding moves
 /// the start along a ray that grazes the bowl far more than across it.
@@ -91,18 +101,12 @@ pub enum Surface {
     },
 }
 
-/// Triangles of several meshes in one hierarchy.
-#[derive(Debug)]
-struct Triangles {
-    bvh: TriangleBvh,
-    /// Mesh and triangle of each triangle in the hierarchy.
-    owners: Vec<(u32, u32)>,
-}
-
 /// A ray and what it may meet.
 struct Start {
     origin: DVec3,
     t_min: f64,
+    /// Mesh mirrors are not met before.
+    mesh_t_min: f64,
     mirrors: bool,
     /// The analytic mirror that is being left.
     leaving: Option<usize>,
@@ -126,9 +130,8 @@ impl Tracer {
                 )?;
             }
         }
-        let objects = Triangles::new(scene.objects.iter().map(|object| Some(&object.mesh)));
-        let mesh_mirrors =
-            Triangles::new(scene.mirrors.iter().map(|mirror| mirror.shape.as_mesh()));
+        let objects = Triangles::of_objects(scene);
+        let mesh_mirrors = Triangles::of_mirrors(scene);
         let object_extents = scene
             .objects
             .iter()
@@ -167,6 +170,7 @@ impl Tracer {
             &Start {
                 origin,
                 t_min: 0.0,
+                mesh_t_min: 0.0,
                 mirrors: true,
                 leaving: None,
             },
@@ -180,6 +184,7 @@ impl Tracer {
             &Start {
                 origin,
                 t_min: 0.0,
+                mesh_t_min: 0.0,
                 mirrors: false,
                 leaving: None,
             },
@@ -199,6 +204,7 @@ impl Tracer {
                 Start {
                     origin: from.position,
                     t_min: nudge,
+                    mesh_t_min: nudge,
                     mirrors,
                     leaving: Some(index),
                 }
@@ -206,6 +212,7 @@ impl Tracer {
             _ => Start {
                 origin: from.position + nudge * from.geometric,
                 t_min: 0.0,
+                mesh_t_min: EQUAL * from.t,
                 mirrors,
                 leaving: None,
             },
@@ -221,6 +228,7 @@ impl Tracer {
         let start = Start {
             origin: from.position + offset * side,
             t_min: 0.0,
+            mesh_t_min: 0.0,
             mirrors,
             leaving: None,
         };
@@ -256,12 +264,8 @@ impl Tracer {
             return object.map(|hit| self.object_hit(&hit, dir));
         }
         // A mirror as far away as an object wins.
-        let t_max = object.map_or(f64::INFINITY, |hit| hit.t.next_up());
-        let mesh = self
-            .mesh_mirrors
-            .bvh
-            .intersect(start.origin, dir, start.t_min, t_max);
-        let mut analytic: Option<Hit> = None;
+        let t_max = object.map_or(f64::INFINITY, |hit| hit.t * (1.0 + EQUAL));
+        let mut nearest = self.mesh_mirror(start, dir, t_max);
         for (index, mirror) in self.scene.mirrors.iter().enumerate() {
             let leaving = start.leaving == Some(index);
             if !mirror.shape.is_analytic() || leaving && mirror.shape.is_convex() {
@@ -271,28 +275,40 @@ impl Tracer {
                 true => start.t_min.max(BOWL_NUDGE * reach(mirror.shape.bounds())),
                 false => start.t_min,
             };
-            let limit = analytic
-                .map(|hit| hit.t)
-                .or(mesh.map(|hit| hit.t))
-                .unwrap_or(t_max);
             let Some(hit) = mirror.shape.intersect(start.origin, dir, t_min) else {
                 continue;
             };
-            if hit.t < limit {
-                let front = dir.dot(hit.normal) < 0.0;
-                analytic = Some(Hit {
-                    id: self.scene.mirror_id(index),
-                    t: hit.t,
-                    position: hit.position,
-                    normal: hit.normal,
-                    geometric: hit.normal,
-                    surface: Surface::Mirror { index, front },
-                });
+            let hit = Hit {
+                id: self.scene.mirror_id(index),
+                t: hit.t,
+                position: hit.position,
+                normal: hit.normal,
+                geometric: hit.normal,
+                surface: Surface::Mirror {
+                    index,
+                    front: dir.dot(hit.normal) < 0.0,
+                },
+            };
+            if hit.t < t_max && nearest.is_none_or(|other| is_met_before(&hit, &other)) {
+                nearest = Some(hit);
             }
         }
-        analytic
-            .or_else(|| mesh.map(|hit| self.mesh_mirror_hit(&hit, dir)))
-            .or_else(|| object.map(|hit| self.object_hit(&hit, dir)))
+        nearest.or_else(|| object.map(|hit| self.object_hit(&hit, dir)))
+    }
+
+    /// The mesh mirror that is met before `t_max`.
+    fn mesh_mirror(&self, start: &Start, dir: DVec3, t_max: f64) -> Option<Hit> {
+        let bvh = &self.mesh_mirrors.bvh;
+        let hit = bvh.intersect(start.origin, dir, start.mesh_t_min, t_max)?;
+        let back = self.mesh_mirror_hit(&hit, dir);
+        if back.is_front() {
+            return Some(back);
+        }
+        let t_max = t_max.min(hit.t * (1.0 + EQUAL));
+        let is_front = |triangle| self.mesh_mirrors.is_front(triangle, dir);
+        let front = bvh.intersect_among(start.origin, dir, start.mesh_t_min, t_max, is_front);
+        let front = front.map(|hit| self.mesh_mirror_hit(&hit, dir));
+        front.filter(Hit::is_front).or(Some(back))
     }
 
     fn object_hit(&self, hit: &TriangleHit, dir: DVec3) -> Hit {
@@ -343,40 +359,22 @@ impl Tracer {
     }
 }
 
-impl Triangles {
-    /// Triangles without an area are left out: no ray can meet them.
-    fn new<'a>(meshes: impl Iterator<Item = Option<&'a Mesh>>) -> Self {
-        let mut all = Vec::new();
-        let mut owners = Vec::new();
-        for (mesh, index) in meshes.zip(0..) {
-            let Some(mesh) = mesh else { continue };
-            for triangle in 0..mesh.triangles.len() {
-                let corners = corners(mesh, triangle);
-                let [a, b, c] = corners.map(Vec3::as_dvec3);
-                if (b - a).cross(c - a) != DVec3::ZERO {
-                    all.push(corners);
-                    owners.push((index, triangle as u32));
-                }
-            }
-        }
-        Self {
-            bvh: TriangleBvh::new(&all),
-            owners,
-        }
-    }
-
-    fn owner(&self, hit: &TriangleHit) -> (usize, usize) {
-        let (mesh, triangle) = self.owners[hit.triangle as usize];
-        (mesh as usize, triangle as usize)
+impl Hit {
+    /// Whether it is a mirror on its reflecting side.
+    fn is_front(&self) -> bool {
+        matches!(self.surface, Surface::Mirror { front: true, .. })
     }
 }
 
-fn corners(mesh: &Mesh, triangle: usize) -> [Vec3; 3] {
-    mesh.triangles[triangle].map(|index| mesh.positions[index as usize])
-}
-
-fn geometric_normal([a, b, c]: &[DVec3; 3]) -> DVec3 {
-    (b - a).cross(c - a).normalize_or_zero()
+/// Whether of two mirrors' hits the first is met: the nearer, or where they are equally far away
+/// and one of them is a front, that one.
+fn is_met_before(hit: &Hit, other: &Hit) -> bool {
+    let equal = (hit.t - other.t).abs() <= EQUAL * other.t;
+    match (hit.is_front(), other.is_front()) {
+        (true, false) if equal => true,
+        (false, true) if equal => false,
+        _ => hit.t < other.t,
+    }
 }
 
 fn mix([a, b, c]: &[DVec3; 3], weights: DVec3) -> DVec3 {
@@ -386,82 +384,4 @@ fn mix([a, b, c]: &[DVec3; 3], weights: DVec3) -> DVec3 {
 /// Largest distance from the origin to a point of a box.
 fn reach((low, high): (DVec3, DVec3)) -> f64 {
     low.abs().max(high.abs()).length()
-}
-
-fn check(surface: &str, mesh: &Mesh) -> Result<(), ReferenceError> {
-    if let Some(index) = mesh
-        .positions
-        .iter()
-        .position(|position| !position.is_finite())
-    {
-        return Err(ReferenceError::NotFinite {
-            surface: surface.to_owned(),
-            index,
-        });
-    }
-    for (triangle, corners) in mesh.triangles.iter().enumerate() {
-        for index in *corners {
-            check_index(surface, triangle, "position", index, mesh.positions.len())?;
-        }
-    }
-    for (what, found) in [
-        ("normals", mesh.normals.len()),
-        ("texture coordinates", mesh.uvs.len()),
-    ] {
-        if found != 0 {
-            check_count(surface, what, found, mesh.triangles.len())?;
-        }
-    }
-    Ok(())
-}
-
-fn check_paint(surface: &str, mesh: &Mesh) -> Result<(), ReferenceError> {
-    let triangles = mesh.triangles.len();
-    check_count(surface, "materials", mesh.material.len(), triangles)?;
-    for (triangle, index) in mesh.material.iter().enumerate() {
-        check_index(surface, triangle, "material", *index, mesh.materials.len())?;
-    }
-    let by_vertex = |material: &catoptric_scene::Material| {
-        matches!(material.paint, catoptric_scene::Paint::Vertex)
-    };
-    if mesh.materials.iter().any(by_vertex) {
-        check_count(surface, "corner colours", mesh.colors.len(), triangles)?;
-    }
-    Ok(())
-}
-
-fn check_count(
-    surface: &str,
-    what: &'static str,
-    found: usize,
-    triangles: usize,
-) -> Result<(), ReferenceError> {
-    if found == triangles {
-        return Ok(());
-    }
-    Err(ReferenceError::Attribute {
-        surface: surface.to_owned(),
-        what,
-        found,
-        triangles,
-    })
-}
-
-fn check_index(
-    surface: &str,
-    triangle: usize,
-    what: &'static str,
-    index: u32,
-    count: usize,
-) -> Result<(), ReferenceError> {
-    if (index as usize) < count {
-        return Ok(());
-    }
-    Err(ReferenceError::Index {
-        surface: surface.to_owned(),
-        triangle,
-        what,
-        index,
-        count,
-    })
 }

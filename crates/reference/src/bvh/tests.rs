@@ -7,8 +7,9 @@ fn point() -> impl Strategy<Value = Vec3> {
 }
 
 /// Every triangle on its own, by the baseline of this kind of processor.
-fn brute_force(triangles: &[[Vec3; 3]], origin: DVec3, dir: DVec3) -> Option<TriangleHit> {
+fn brute_force(bvh: &TriangleBvh, triangles: &[[Vec3; 3]], ray: [DVec3; 2]) -> Option<TriangleHit> {
     let level = Level::baseline();
+    let [origin, dir] = ray;
     let hits = (0..triangles.len() as u32).filter_map(|index| {
         let block = leaf::Block::new(&[index], triangles);
         dispatch!(level, simd => {
@@ -22,7 +23,11 @@ fn brute_force(triangles: &[[Vec3; 3]], origin: DVec3, dir: DVec3) -> Option<Tri
             })
         })
     });
-    hits.min_by(|a, b| a.t.total_cmp(&b.t))
+    let hits: Vec<_> = hits.collect();
+    let nearest = hits.iter().map(|hit| hit.t).min_by(f64::total_cmp)?;
+    let skip = ((bvh.center - origin).dot(dir) - bvh.radius * 1.001).max(0.0);
+    let last = nearest + EQUAL * (bvh.radius + skip);
+    hits.into_iter().find(|hit| hit.t <= last)
 }
 
 fn unlimited(bvh: &TriangleBvh, origin: DVec3, dir: DVec3) -> Option<TriangleHit> {
@@ -58,8 +63,8 @@ proptest! {
         let triangles: Vec<_> = triangles.into_iter().chain(tiny).collect();
         let dir = dir.as_dvec3().normalize();
         let origin = origin.as_dvec3() - far * dir;
-        let expected = brute_force(&triangles, origin, dir);
         let mut bvh = TriangleBvh::new(&triangles);
+        let expected = brute_force(&bvh, &triangles, [origin, dir]);
         for level in levels() {
             bvh.level = level;
             prop_assert_eq!(unlimited(&bvh, origin, dir), expected, "{:?}", level);
@@ -99,6 +104,53 @@ fn of_equal_triangles_the_first_is_hit() {
     let bvh = TriangleBvh::new(&triangles);
     let hit = unlimited(&bvh, DVec3::NEG_X, DVec3::X).unwrap();
     assert_eq!((hit.triangle, hit.t), (0, 1.0));
+}
+
+#[test]
+fn of_squares_in_one_plane_the_first_is_hit_everywhere() {
+    let at = |x: f32, y: f32| Vec3::new(x, y, 0.3);
+    let [a, b, c, d] = [at(-1.0, -1.0), at(1.0, -1.1), at(1.2, 1.0), at(-0.9, 1.3)];
+    // Split along one diagonal and along the other, each several times.
+    let triangles = [
+        [a, b, c],
+        [a, c, d],
+        [d, c, b],
+        [d, b, a],
+        [c, a, b],
+        [d, a, b],
+    ];
+    let bvh = TriangleBvh::new(&triangles);
+    for step in 0..10_000 {
+        let (x, y) = (f64::from(step % 100), f64::from(step / 100));
+        let target = DVec3::new(x / 60.0 - 0.8, y / 60.0 - 0.8, 0.3);
+        let origin = DVec3::new(0.2, 0.1, 9.0);
+        let hit = unlimited(&bvh, origin, (target - origin).normalize()).unwrap();
+        assert!(hit.triangle < 2, "{target}: {}", hit.triangle);
+    }
+}
+
+/// Triangles that are alike, or lie evenly in a row, are joined in few rounds.
+#[test]
+fn hierarchies_of_alike_triangles_are_shallow() {
+    let triangle = |x: f32, y: f32| {
+        let at = |dx: f32, dy: f32| Vec3::new(x + dx, y + dy, 0.0);
+        [at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1.0)]
+    };
+    let many = 20_000;
+    let coincident = (0..many).map(|_| triangle(0.0, 0.0)).collect();
+    let row = (0..many).map(|index| triangle(index as f32, 0.0)).collect();
+    let column = (0..many)
+        .map(|index| triangle(0.0, 1e-7 * index as f32))
+        .collect();
+    for triangles in [coincident, row, column] {
+        let triangles: Vec<_> = triangles;
+        let start = std::time::Instant::now();
+        let bvh = TriangleBvh::new(&triangles);
+        // Seven of eight children wait at each level.
+        let levels = bvh.wide.stack / 7;
+        println!("{levels} levels, {:?}", start.elapsed());
+        assert!(levels < 40, "{levels} levels");
+    }
 }
 
 #[test]

@@ -7,7 +7,7 @@ use glam::{DVec3, Vec3};
 
 use super::leaf::{Block, Sheared};
 use super::wide::{Child, Kind, LANES};
-use super::{TriangleBvh, TriangleHit};
+use super::{EQUAL, TriangleBvh, TriangleHit};
 
 /// So many may wait without a heap allocation; 66 444 triangles of architecture need 71.
 const STACK: usize = 128;
@@ -17,6 +17,15 @@ pub(super) struct Query {
     pub(super) origin: DVec3,
     pub(super) dir: DVec3,
     pub(super) within: Range<f64>,
+}
+
+/// The nearest triangle.
+pub(super) struct Found {
+    pub(super) hit: TriangleHit,
+    /// Distances that are no more than this apart are the same ([`EQUAL`]).
+    pub(super) equal: f64,
+    /// Another triangle may be hit at the same distance.
+    pub(super) tied: bool,
 }
 
 /// What a ray takes.
@@ -57,14 +66,15 @@ fn waiting(near: f32, child: Child) -> u64 {
     (u64::from(near.to_bits()) << 32) | u64::from(child.0)
 }
 
-/// Nearest triangle of `bvh` that the ray hits.
+/// Nearest triangle of `bvh` that the ray hits, of those that are accepted by their index.
 #[inline(always)]
 pub(super) fn nearest<S: Simd, O: Observer>(
     simd: S,
     bvh: &TriangleBvh,
     query: &Query,
     observer: &mut O,
-) -> Option<TriangleHit> {
+    accepts: &impl Fn(u32) -> bool,
+) -> Option<Found> {
     let mut small = [0; STACK];
     let mut large;
     let stack: &mut [u64] = if bvh.wide.stack <= STACK {
@@ -92,6 +102,8 @@ pub(super) fn nearest<S: Simd, O: Observer>(
     let mut triangle = 0;
     let mut place = None;
     let mut barycentric = DVec3::ZERO;
+    let mut tied = false;
+    let equal = EQUAL * (bvh.radius + skip);
     let mut limit = above(query.within.end - skip);
     let mut waits = 0;
     let mut child = bvh.wide.root;
@@ -145,8 +157,12 @@ pub(super) fn nearest<S: Simd, O: Observer>(
                         let lane = bits.trailing_zeros() as usize % Block::TRIANGLES;
                         bits &= bits - 1;
                         let (t, candidate) = (lanes.t[lane], block.original[lane]);
-                        let nearer = t < nearest || t == nearest && candidate < triangle;
-                        if t > query.within.start && nearer {
+                        if !(t > query.within.start && accepts(candidate)) {
+                            continue;
+                        }
+                        let other = place.is_some() && candidate != triangle;
+                        tied |= other && (t - nearest).abs() <= equal;
+                        if t < nearest || t == nearest && candidate < triangle {
                             let [u, v, w] = lanes.barycentric;
                             nearest = t;
                             triangle = candidate;
@@ -160,11 +176,15 @@ pub(super) fn nearest<S: Simd, O: Observer>(
         }
         loop {
             if waits == 0 {
-                return place.map(|(block, lane)| TriangleHit {
-                    triangle,
-                    t: nearest,
-                    barycentric,
-                    corners: bvh.blocks[block].corners(lane),
+                return place.map(|(block, lane)| Found {
+                    hit: TriangleHit {
+                        triangle,
+                        t: nearest,
+                        barycentric,
+                        corners: bvh.blocks[block].corners(lane),
+                    },
+                    equal,
+                    tied,
                 });
             }
             waits -= 1;

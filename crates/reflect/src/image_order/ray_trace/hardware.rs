@@ -2,9 +2,8 @@
 //! one geometry, so that a triangle's index is the one in `shared/surface.wesl`.
 
 use catoptric_scene::Scene;
-use wgpu::util::DeviceExt;
 
-use crate::gpu::{Gpu, Recorder};
+use crate::gpu::{Gpu, Recorder, buffer};
 
 /// Bytes from one vertex to the next.
 const STRIDE: u64 = 12;
@@ -40,13 +39,13 @@ impl Hardware {
             positions = vec![[0.0; 3]];
             indices = vec![0; 3];
         }
-        let buffer = |contents: &[u8]| {
-            gpu.device
-                .create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                    label: Some("traced triangles"),
-                    contents,
-                    usage: wgpu::BufferUsages::BLAS_INPUT,
-                })
+        let traced = |contents: &[u8]| {
+            buffer(
+                gpu,
+                "traced triangles",
+                contents,
+                wgpu::BufferUsages::BLAS_INPUT,
+            )
         };
         let size = wgpu::BlasTriangleGeometrySizeDescriptor {
             vertex_format: wgpu::VertexFormat::Float32x3,
@@ -76,8 +75,8 @@ impl Hardware {
         let identity = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
         tlas[0] = Some(wgpu::TlasInstance::new(&blas, identity, 0, 0xff));
         Self {
-            vertices: buffer(bytemuck::cast_slice(&positions)),
-            indices: buffer(bytemuck::cast_slice(&indices)),
+            vertices: traced(bytemuck::cast_slice(&positions)),
+            indices: traced(bytemuck::cast_slice(&indices)),
             size,
             blas,
             tlas,

@@ -151,8 +151,8 @@ impl Rays {
             Ok(compute(gpu, &module, "reflections", &layouts))
         };
         let [width, height] = stage.world.size.map(u64::from);
-        gpu.check_binding(width * height * 8)?;
         let counts = storage_zeros(gpu, width * height * 8);
+        gpu.check()?;
         let trace = pipeline(&features)?;
         features.push("count");
         Ok(Self {

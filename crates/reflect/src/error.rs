@@ -18,14 +18,6 @@ pub enum ReflectError {
         /// Longest side.
         limit: u32,
     },
-    /// A hierarchy of rays to trace that is deeper than the shader's stack.
-    #[error("the scene's ray-tracing hierarchy has {depth} levels, the shader takes {limit}")]
-    Deep {
-        /// Levels of nodes.
-        depth: usize,
-        /// As many as may wait.
-        limit: usize,
-    },
     /// An option that this adapter cannot serve.
     #[error("the adapter {0}")]
     Adapter(&'static str),

@@ -75,18 +75,21 @@ pub fn supports(spec: &Spec, scene: &Scene) -> Support {
 /// Makes a technique ready for a scene and an image size.
 ///
 /// # Errors
-/// A size or scene that the device cannot hold.
+/// A size or scene that the device cannot hold; whatever fails on the device.
 pub fn prepare<'g>(
     gpu: &'g Gpu,
     spec: &Spec,
     scene: &Scene,
     size: [u32; 2],
 ) -> Result<Prepared<'g>, ReflectError> {
+    gpu.begin();
     let technique = match registry::asked(spec) {
         Asked::ObjectOrder(search, refinement) => {
             object_order::prepare(gpu, search, refinement.as_ref(), scene, size)
         }
         Asked::ImageOrder(technique) => image_order::prepare(gpu, &technique, scene, size),
     }?;
-    Ok(Prepared::new(gpu, technique))
+    let prepared = Prepared::new(gpu, technique);
+    gpu.check().map_err(ReflectError::Build)?;
+    Ok(prepared)
 }

@@ -41,14 +41,18 @@ impl<'g> Prepared<'g> {
     /// Renders a frame with all layers and counts the work.
     ///
     /// # Errors
-    /// As when preparing, where something is prepared for each frame; the device's own errors are
-    /// bugs and panic.
+    /// As when preparing.
     pub fn render(&mut self) -> Result<Output, ReflectError> {
+        self.gpu.begin();
         self.technique.begin_frame(self.gpu)?;
         self.gpu.run(|frame| {
             self.technique.record(frame, Variant::AllLayers);
         });
-        Ok(self.technique.output(self.gpu))
+        self.gpu.wait();
+        self.gpu.check()?;
+        let output = self.technique.output(self.gpu);
+        self.gpu.check()?;
+        Ok(output)
     }
 
     /// Renders a frame as an application would, colour and depth only, and times it.
@@ -56,12 +60,14 @@ impl<'g> Prepared<'g> {
     /// # Errors
     /// As [`Prepared::render`].
     pub fn time_frame(&mut self) -> Result<FrameTime, ReflectError> {
+        self.gpu.begin();
         let start = Instant::now();
         let built = self.technique.begin_frame(self.gpu)?;
         let build_ms = (built == Built::OnTheCpu).then(|| start.elapsed().as_secs_f64() * 1e3);
         let time = self.timer.time(self.gpu, |frame| {
             self.technique.record(frame, Variant::Color);
         });
+        self.gpu.check()?;
         Ok(FrameTime { build_ms, ..time })
     }
 
@@ -70,15 +76,22 @@ impl<'g> Prepared<'g> {
     /// # Errors
     /// As when preparing.
     pub fn ask(&self, question: Question) -> Result<Option<Answer>, ReflectError> {
-        self.technique.answer(self.gpu, question)
+        self.gpu.begin();
+        let answer = self.technique.answer(self.gpu, question)?;
+        self.gpu.check()?;
+        Ok(answer)
     }
 
     /// Takes over what moved since the last frame: eye, object vertices, mirrors. Nothing is
     /// prepared anew that the motion does not touch.
     ///
     /// # Errors
-    /// A scene with other objects, triangles or mirrors than the one prepared for.
+    /// A scene with other objects, triangles or mirrors than the one prepared for; whatever fails on
+    /// the device.
     pub fn update(&mut self, scene: &Scene) -> Result<(), ReflectError> {
-        self.technique.update(self.gpu, scene)
+        self.gpu.begin();
+        self.technique.update(self.gpu, scene)?;
+        self.gpu.check()?;
+        Ok(())
     }
 }

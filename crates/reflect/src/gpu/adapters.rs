@@ -49,9 +49,7 @@ pub(super) fn describe(adapter: &wgpu::Adapter) -> AdapterInfo {
         timestamps: adapter.features().contains(wgpu::Features::TIMESTAMP_QUERY),
         ray_queries: adapter.features().contains(RAY_QUERY),
         max_image: limits.max_texture_dimension_2d,
-        // Devices are opened with the default limits.
-        max_storage_binding: (limits.max_storage_buffer_binding_size)
-            .min(wgpu::Limits::default().max_storage_buffer_binding_size),
+        max_storage_binding: (limits.max_storage_buffer_binding_size).min(limits.max_buffer_size),
         subgroups: subgroups.then_some([info.subgroup_min_size, info.subgroup_max_size]),
     }
 }

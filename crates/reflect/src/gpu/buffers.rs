@@ -7,12 +7,8 @@ use super::device::Gpu;
 
 /// A uniform buffer that holds `value`.
 pub(crate) fn uniform<T: ShaderType + WriteInto>(gpu: &Gpu, value: &T) -> wgpu::Buffer {
-    gpu.device
-        .create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: None,
-            contents: &uniform_bytes(value),
-            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-        })
+    let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
+    buffer(gpu, "uniform", &uniform_bytes(value), usage)
 }
 
 /// Overwrites a buffer made by [`uniform`].
@@ -47,24 +43,58 @@ pub(crate) fn set_storage<T: ShaderType + WriteInto>(gpu: &Gpu, buffer: &wgpu::B
 
 /// A storage buffer that holds `bytes`; never empty, as no binding may be.
 pub(crate) fn storage_bytes(gpu: &Gpu, bytes: &[u8]) -> wgpu::Buffer {
-    const EMPTY: [u8; 64] = [0; 64];
-    gpu.device
-        .create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: None,
-            contents: if bytes.is_empty() { &EMPTY } else { bytes },
-            usage: STORAGE,
-        })
+    buffer(gpu, "storage", bytes, STORAGE)
 }
 
 /// A storage buffer of `bytes` zeros, at least 64.
 pub(crate) fn storage_zeros(gpu: &Gpu, bytes: u64) -> wgpu::Buffer {
+    empty(gpu, "zeros", bytes, STORAGE)
+}
+
+/// A buffer that holds `bytes`, or 64 zeros where there are none.
+pub(crate) fn buffer(
+    gpu: &Gpu,
+    label: &str,
+    bytes: &[u8],
+    usage: wgpu::BufferUsages,
+) -> wgpu::Buffer {
+    let size = bytes.len() as u64;
+    if bytes.is_empty() || !gpu.allows_buffer(size, usage) {
+        return stand_in(gpu, label, usage);
+    }
+    gpu.device
+        .create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some(label),
+            contents: bytes,
+            usage,
+        })
+}
+
+/// A buffer of `bytes` zeros, at least 64.
+pub(super) fn empty(gpu: &Gpu, label: &str, bytes: u64, usage: wgpu::BufferUsages) -> wgpu::Buffer {
+    if bytes <= STAND_IN || !gpu.allows_buffer(bytes, usage) {
+        return stand_in(gpu, label, usage);
+    }
     gpu.device.create_buffer(&wgpu::BufferDescriptor {
-        label: None,
-        size: bytes.max(64),
-        usage: STORAGE,
+        label: Some(label),
+        size: bytes,
+        usage,
         mapped_at_creation: false,
     })
 }
+
+/// A small buffer of zeros.
+fn stand_in(gpu: &Gpu, label: &str, usage: wgpu::BufferUsages) -> wgpu::Buffer {
+    gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size: STAND_IN,
+        usage,
+        mapped_at_creation: false,
+    })
+}
+
+/// Bytes of the smallest buffer.
+const STAND_IN: u64 = 64;
 
 const STORAGE: wgpu::BufferUsages = wgpu::BufferUsages::STORAGE
     .union(wgpu::BufferUsages::COPY_DST)

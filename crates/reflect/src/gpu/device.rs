@@ -1,6 +1,9 @@
 //! The device, opened on an adapter that was chosen on purpose.
 
+use std::sync::Arc;
+
 use super::adapters::{AdapterInfo, Prefer, RAY_QUERY, describe, enumerate};
+use super::budget::Budget;
 use super::error::{BuildError, GpuError};
 
 /// A wgpu device and what is known about its adapter.
@@ -8,14 +11,25 @@ use super::error::{BuildError, GpuError};
 pub struct Gpu {
     pub(crate) device: wgpu::Device,
     pub(crate) queue: wgpu::Queue,
+    pub(super) budget: Budget,
     info: AdapterInfo,
 }
 
 /// Features that are used where the adapter has them.
 const WANTED: wgpu::Features = wgpu::Features::TIMESTAMP_QUERY.union(wgpu::Features::SUBGROUP);
 
-/// Asks for a device with the default limits, with what it has of [`WANTED`], and with ray queries if
-/// asked for.
+/// What is asked for: the default limits, but as large buffers, images and arrays as the adapter has.
+fn limits(adapter: &wgpu::Adapter) -> wgpu::Limits {
+    let most = adapter.limits();
+    wgpu::Limits {
+        max_buffer_size: most.max_buffer_size,
+        max_storage_buffer_binding_size: most.max_storage_buffer_binding_size,
+        max_texture_array_layers: most.max_texture_array_layers,
+        ..wgpu::Limits::default().using_resolution(most)
+    }
+}
+
+/// Asks for a device with what it has of [`WANTED`], and with ray queries if asked for.
 fn request(
     adapter: &wgpu::Adapter,
     ray_queries: bool,
@@ -23,7 +37,7 @@ fn request(
     let mut descriptor = wgpu::DeviceDescriptor {
         label: Some("catoptric"),
         required_features: adapter.features() & WANTED,
-        required_limits: wgpu::Limits::default().using_resolution(adapter.limits()),
+        required_limits: limits(adapter),
         ..Default::default()
     };
     if ray_queries {
@@ -71,24 +85,36 @@ impl Gpu {
             return Err(GpuError::not_found(name, &names));
         };
         if info.ray_queries
-            && let Ok((device, queue)) = request(&adapter, true)
+            && let Ok(opened) = request(&adapter, true)
         {
-            return Ok(Self {
-                device,
-                queue,
-                info,
-            });
+            return Ok(Self::with(opened, info));
         }
         info.ray_queries = false;
-        let (device, queue) = request(&adapter, false).map_err(|source| GpuError::NoDevice {
+        let opened = request(&adapter, false).map_err(|source| GpuError::NoDevice {
             adapter: info.name.clone(),
             source,
         })?;
-        Ok(Self {
+        Ok(Self::with(opened, info))
+    }
+
+    /// A device whose errors are noted: none is a panic.
+    fn with((device, queue): (wgpu::Device, wgpu::Queue), info: AdapterInfo) -> Self {
+        let budget = Budget::default();
+        let of_errors = budget.clone();
+        device.on_uncaptured_error(Arc::new(move |error| of_errors.note_error(&error)));
+        let of_loss = budget.clone();
+        device.set_device_lost_callback(move |reason, message| {
+            // A device that is dropped at the end is lost, too.
+            if reason != wgpu::DeviceLostReason::Destroyed {
+                of_loss.note(BuildError::Device(format!("it is lost: {message}")));
+            }
+        });
+        Self {
             device,
             queue,
+            budget,
             info,
-        })
+        }
     }
 
     /// What was opened.
@@ -96,19 +122,10 @@ impl Gpu {
         &self.info
     }
 
-    /// Refuses a buffer that no shader could see as a whole.
-    pub(crate) fn check_binding(&self, bytes: u64) -> Result<(), BuildError> {
-        let limit = self.device.limits().max_storage_buffer_binding_size;
-        if bytes > limit {
-            return Err(BuildError::TooLarge { bytes, limit });
-        }
-        Ok(())
-    }
-
     /// Waits until everything submitted has run.
     pub(crate) fn wait(&self) {
-        self.device
-            .poll(wgpu::PollType::wait_indefinitely())
-            .expect("the device is not lost");
+        if let Err(error) = self.device.poll(wgpu::PollType::wait_indefinitely()) {
+            self.budget.note(BuildError::Device(error.to_string()));
+        }
     }
 }

@@ -58,11 +58,36 @@ pub enum BuildError {
     #[error("shader: {0}")]
     Shader(String),
     /// More geometry or texels than one buffer holds.
-    #[error("the scene needs a buffer of {bytes} bytes, the device takes {limit}")]
-    TooLarge {
+    #[error("needs a buffer of {bytes} bytes, the device takes {limit}")]
+    Buffer {
         /// Needed.
         bytes: u64,
         /// Possible.
         limit: u64,
     },
+    /// A larger image, or more layers of it, than one texture holds.
+    #[error(
+        "needs a texture of {}x{} texels in {} layers, the device takes {}x{} in {}",
+        needed[0], needed[1], needed[2], limit[0], limit[0], limit[1]
+    )]
+    Texture {
+        /// Width, height, layers.
+        needed: [u32; 3],
+        /// Longest side, most layers.
+        limit: [u32; 2],
+    },
+    /// More memory than a technique may have.
+    #[error("needs {bytes} bytes of the device's memory at least, the most is {limit}")]
+    Memory {
+        /// Needed so far.
+        bytes: u64,
+        /// Possible.
+        limit: u64,
+    },
+    /// The device has no memory left.
+    #[error("the device has no memory left for it")]
+    OutOfMemory,
+    /// The device is gone, or refuses what it is asked for.
+    #[error("the device failed: {0}")]
+    Device(String),
 }

@@ -4,6 +4,7 @@
 
 mod adapters;
 mod bindings;
+mod budget;
 mod buffers;
 mod clock;
 mod device;
@@ -19,7 +20,7 @@ mod textures;
 pub use adapters::{AdapterInfo, Prefer, adapters};
 pub(crate) use bindings::{Slot, group, layout};
 pub(crate) use buffers::{
-    set_storage, set_uniform, storage, storage_bytes, storage_zeros, uniform,
+    buffer, set_storage, set_uniform, storage, storage_bytes, storage_zeros, uniform,
 };
 pub use clock::FrameTime;
 pub(crate) use clock::Timer;
@@ -30,4 +31,6 @@ pub(crate) use pipelines::{
 };
 pub(crate) use recorder::{Begin, Recorder};
 pub use self_test::SelfTest;
-pub(crate) use textures::{DEPTH, FLOAT4, level_view, pyramid, target, texture_array, view};
+pub(crate) use textures::{
+    DEPTH, FLOAT4, level_view, pyramid, target, texture_array, texture_with, view,
+};

@@ -7,6 +7,43 @@ pub(crate) const FLOAT4: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 /// Format of every depth target; depth is reversed, 0 is infinitely far.
 pub(crate) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
+/// A texture that the device can hold, or else one of a single texel.
+fn texture(gpu: &Gpu, descriptor: &wgpu::TextureDescriptor<'_>) -> wgpu::Texture {
+    if gpu.allows_texture(descriptor) {
+        return gpu.device.create_texture(descriptor);
+    }
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        size: wgpu::Extent3d::default(),
+        mip_level_count: 1,
+        ..descriptor.clone()
+    })
+}
+
+/// Square [`FLOAT4`] layers `[side, layers]` that hold `texels`, layer by layer, to read by
+/// `textureLoad`.
+pub(crate) fn texture_with(
+    gpu: &Gpu,
+    label: &str,
+    [side, layers]: [u32; 2],
+    texels: &[[f32; 4]],
+) -> wgpu::Texture {
+    let usage = wgpu::TextureUsages::COPY_DST | wgpu::TextureUsages::COPY_SRC;
+    let texture = texture_array(gpu, label, [side, layers], 1, FLOAT4, usage);
+    if texture.width() == side && texture.depth_or_array_layers() == layers {
+        gpu.queue.write_texture(
+            texture.as_image_copy(),
+            bytemuck::cast_slice(texels),
+            wgpu::TexelCopyBufferLayout {
+                offset: 0,
+                bytes_per_row: Some(16 * side),
+                rows_per_image: Some(side),
+            },
+            texture.size(),
+        );
+    }
+    texture
+}
+
 /// An image to render to and, unless it is a depth image, to read and to write from shaders.
 pub(crate) fn target(
     gpu: &Gpu,
@@ -21,41 +58,47 @@ pub(crate) fn target(
             | wgpu::TextureUsages::TEXTURE_BINDING
             | wgpu::TextureUsages::STORAGE_BINDING
     };
-    gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some(label),
-        size: wgpu::Extent3d {
-            width: size[0],
-            height: size[1],
-            depth_or_array_layers: 1,
+    texture(
+        gpu,
+        &wgpu::TextureDescriptor {
+            label: Some(label),
+            size: wgpu::Extent3d {
+                width: size[0],
+                height: size[1],
+                depth_or_array_layers: 1,
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | extra,
+            view_formats: &[],
         },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | extra,
-        view_formats: &[],
-    })
+    )
 }
 
 /// A square [`FLOAT4`] image with all its levels, written by compute shaders; `side` is a power of
 /// two.
 pub(crate) fn pyramid(gpu: &Gpu, label: &str, side: u32) -> wgpu::Texture {
-    gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some(label),
-        size: wgpu::Extent3d {
-            width: side,
-            height: side,
-            depth_or_array_layers: 1,
+    texture(
+        gpu,
+        &wgpu::TextureDescriptor {
+            label: Some(label),
+            size: wgpu::Extent3d {
+                width: side,
+                height: side,
+                depth_or_array_layers: 1,
+            },
+            mip_level_count: side.ilog2() + 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: FLOAT4,
+            usage: wgpu::TextureUsages::STORAGE_BINDING
+                | wgpu::TextureUsages::TEXTURE_BINDING
+                | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
         },
-        mip_level_count: side.ilog2() + 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: FLOAT4,
-        usage: wgpu::TextureUsages::STORAGE_BINDING
-            | wgpu::TextureUsages::TEXTURE_BINDING
-            | wgpu::TextureUsages::COPY_SRC,
-        view_formats: &[],
-    })
+    )
 }
 
 /// One level of a texture.
@@ -76,20 +119,23 @@ pub(crate) fn texture_array(
     format: wgpu::TextureFormat,
     usage: wgpu::TextureUsages,
 ) -> wgpu::Texture {
-    gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some(label),
-        size: wgpu::Extent3d {
-            width: side,
-            height: side,
-            depth_or_array_layers: layers,
+    texture(
+        gpu,
+        &wgpu::TextureDescriptor {
+            label: Some(label),
+            size: wgpu::Extent3d {
+                width: side,
+                height: side,
+                depth_or_array_layers: layers,
+            },
+            mip_level_count: levels,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage: usage | wgpu::TextureUsages::TEXTURE_BINDING,
+            view_formats: &[],
         },
-        mip_level_count: levels,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: usage | wgpu::TextureUsages::TEXTURE_BINDING,
-        view_formats: &[],
-    })
+    )
 }
 
 /// The whole of a texture.

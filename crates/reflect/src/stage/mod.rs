@@ -53,6 +53,7 @@ impl Stage {
         let gbuffer = GBuffer::new(gpu, &world)?;
         let reflections = Reflections::new(gpu, size);
         let composite = Composite::new(gpu, &world, &primary, &gbuffer, &reflections)?;
+        gpu.check()?;
         Ok(Self {
             options,
             world,

@@ -27,7 +27,7 @@ use self::maps::{MORE, MirrorMaps, TraceUniform};
 use self::march::March;
 pub(crate) use self::options::CubemapTrace;
 use self::options::{ShaderStage, Skipping, Unresolved};
-use super::cubemaps::{Update, Wanted, maps_layout};
+use super::cubemaps::{Update, Wanted, bytes, maps_layout};
 use super::{ImageOrder, Recipe};
 use crate::diagnostics::{Answer, Question};
 use crate::error::ReflectError;
@@ -91,6 +91,10 @@ impl Tracing {
         let pyramid = compute || options.pyramid != Skipping::Off;
         let trace = TraceUniform::new(options, &stage.world.scene);
         let mut mirrors = Vec::new();
+        // Before places are looked for, which takes long where there are many mirrors.
+        let count = stage.world.mirrors.len() * options.objects as usize;
+        let size = options.maps.size.texels();
+        gpu.check_memory(bytes(size, count, options.shows_mirrors()))?;
         let places = placement::places(gpu, options, stage)?;
         for (mirror, mut centers) in stage.world.scene.mirrors.iter().zip(places) {
             let traced = centers.len();

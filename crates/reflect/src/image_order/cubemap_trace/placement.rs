@@ -248,6 +248,7 @@ impl<'a> Trial<'a> {
             )
         });
         let mut maps = first.collect::<Result<Vec<_>, _>>()?;
+        gpu.check()?;
         for round in 0..most {
             for (maps, centers) in maps.iter_mut().zip(candidates) {
                 maps.maps.set_centers(gpu, &self.stage, &[centers[round]]);

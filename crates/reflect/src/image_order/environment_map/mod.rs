@@ -5,7 +5,7 @@ use catoptric_frame::Work;
 use catoptric_scene::{Mirror, Scene};
 use glam::DVec3;
 
-use super::cubemaps::{CubeMaps, MapOptions, Update, Wanted, maps_layout};
+use super::cubemaps::{CubeMaps, MapOptions, Update, Wanted, bytes, maps_layout};
 use super::per_pixel::PerPixel;
 use super::{ImageOrder, Recipe};
 use crate::error::ReflectError;
@@ -55,6 +55,8 @@ impl Recipe for EnvironmentMap {
     fn make(&self, gpu: &Gpu, stage: &Stage) -> Result<Box<dyn ImageOrder>, ReflectError> {
         let module = module(gpu, "environment_map", &[])?;
         let own_layout = maps_layout(gpu, "environment map", &[]);
+        let count = stage.world.mirrors.len();
+        gpu.check_memory(bytes(self.maps.size.texels(), count, false))?;
         let mut maps = Vec::new();
         for mirror in &stage.world.scene.mirrors {
             let wanted = Wanted {

@@ -10,11 +10,10 @@ pub(crate) mod twin;
 
 use catoptric_scene::{Mirror, Scene, Shape};
 use encase::ShaderType;
-use wgpu::util::{DeviceExt, TextureDataOrder};
 
 use super::{Context, Pipelines, Recipe, Search};
 use crate::error::ReflectError;
-use crate::gpu::{FLOAT4, Gpu, Recorder, Slot, group, layout, uniform};
+use crate::gpu::{Gpu, Recorder, Slot, group, layout, texture_with, uniform};
 use crate::options::{options, words};
 use crate::stage::Stage;
 use crate::stage::options::SearchOptions;
@@ -22,6 +21,9 @@ use crate::stage::points::Points;
 use crate::stage::variant::Variant;
 use crate::technique::{Info, Named};
 use maps::Maps;
+
+/// Faces of a cube.
+const FACES: u32 = 6;
 
 words! {
     /// Where a search starts.
@@ -144,6 +146,9 @@ impl InMaps {
             builds: 0,
         };
         let mirrors = stage.world.scene.mirrors.iter();
+        // Before they are made on the CPU.
+        let texels = u64::from(FACES) * u64::from(options.size).pow(2);
+        gpu.check_memory(mirrors.len() as u64 * 2 * 16 * texels)?;
         made.mirrors = mirrors.map(|mirror| made.build(gpu, mirror)).collect();
         Ok(made)
     }
@@ -154,7 +159,8 @@ impl InMaps {
         let maps = Maps::new(&*mirror.shape, self.options.size);
         let settings = uniform(gpu, &Settings::new(&self.options, maps.facing));
         let views = [&maps.positions, &maps.normals].map(|texels| {
-            let texture = faces(gpu, maps.size, texels);
+            // Cube textures cannot be read texel by texel.
+            let texture = texture_with(gpu, "reflector cube map", [maps.size, FACES], texels);
             texture.create_view(&wgpu::TextureViewDescriptor {
                 dimension: Some(wgpu::TextureViewDimension::D2Array),
                 ..Default::default()
@@ -170,29 +176,6 @@ impl InMaps {
             group: group(gpu, &self.layout, &resources),
         }
     }
-}
-
-/// A texture of six layers. Cube textures cannot be read texel by texel.
-fn faces(gpu: &Gpu, size: u32, texels: &[[f32; 4]]) -> wgpu::Texture {
-    gpu.device.create_texture_with_data(
-        &gpu.queue,
-        &wgpu::TextureDescriptor {
-            label: Some("reflector cube map"),
-            size: wgpu::Extent3d {
-                width: size,
-                height: size,
-                depth_or_array_layers: 6,
-            },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: FLOAT4,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING,
-            view_formats: &[],
-        },
-        TextureDataOrder::LayerMajor,
-        bytemuck::cast_slice(texels),
-    )
 }
 
 impl Search for InMaps {

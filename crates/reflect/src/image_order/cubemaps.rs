@@ -15,6 +15,7 @@ use crate::stage::Stage;
 use crate::stage::extent::{beyond, diagonal};
 use crate::stage::mirror::MirrorUniform;
 use crate::stage::view::ViewUniform;
+use crate::stage::world::MirrorPipelines;
 
 words! {
     /// Texels a side of a cube face: each a power of two, so that a pyramid ends in one cell.
@@ -91,6 +92,15 @@ pub(crate) struct Wanted {
     pub mirrors: bool,
 }
 
+/// Bytes of so many cube maps on the device, with normals or without.
+pub(crate) fn bytes(size: u32, count: usize, normals: bool) -> u64 {
+    let formats = [FLOAT4, DISTANCE]
+        .into_iter()
+        .chain(normals.then_some(NORMAL));
+    let texel = formats.map(|format| u64::from(format.block_copy_size(None).unwrap_or(0)));
+    u64::from(FACES) * u64::from(size).pow(2) * count as u64 * texel.sum::<u64>()
+}
+
 /// Cube maps that stand ready to be drawn and read.
 pub(crate) struct CubeMaps {
     wanted: Wanted,
@@ -116,8 +126,7 @@ struct Face {
 /// What draws mirrors into maps.
 struct Mirrored {
     objects: wgpu::RenderPipeline,
-    exact: wgpu::RenderPipeline,
-    mesh: wgpu::RenderPipeline,
+    pipelines: MirrorPipelines,
     /// By map, mirror: uniform of the mirror seen from the map's centre, and its group.
     mirrors: Vec<Vec<(wgpu::Buffer, wgpu::BindGroup)>>,
 }
@@ -142,6 +151,7 @@ impl CubeMaps {
         let colors = array("map color", FLOAT4);
         let distances = array("map distance", DISTANCE);
         let normals = wanted.mirrors.then(|| array("map normal", NORMAL));
+        gpu.check()?;
         let layer_view = |texture: &wgpu::Texture, layer| {
             texture.create_view(&wgpu::TextureViewDescriptor {
                 dimension: Some(wgpu::TextureViewDimension::D2),
@@ -253,15 +263,8 @@ impl CubeMaps {
                 pass.draw(0..world.corners, 0..1);
                 let Some(mirrored) = mirrored else { return };
                 for ((_, group), mirror) in mirrored.mirrors[map].iter().zip(&world.mirrors) {
-                    let exact = mirror.exact;
-                    pass.set_pipeline(if exact {
-                        &mirrored.exact
-                    } else {
-                        &mirrored.mesh
-                    });
                     pass.set_bind_group(1, group, &[]);
-                    pass.set_vertex_buffer(0, mirror.vertices.slice(..));
-                    pass.draw(0..mirror.vertex_count, 0..1);
+                    mirrored.pipelines.draw(pass, mirror);
                 }
             });
         }
@@ -306,28 +309,27 @@ impl Mirrored {
         });
         let formats = [FLOAT4, DISTANCE, NORMAL];
         let objects = [Some(&world.view_layout), None, Some(&world.surface_layout)];
-        let corner = wgpu::VertexBufferLayout {
-            array_stride: 36,
-            step_mode: wgpu::VertexStepMode::Vertex,
-            attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x3],
-        };
-        let mirror = |entry| {
-            let layouts = [Some(&world.view_layout), Some(&mirror_layout)];
-            let entries = entries("mirror_vertex", entry);
-            raster_to(
-                gpu,
-                entries,
-                &formats,
-                true,
-                &layouts,
-                &[Some(corner.clone())],
-            )
-        };
+        let by_points = [
+            "mirror_vertex",
+            "mirror_exact",
+            "triangle_vertex",
+            "mirror_exact_triangle",
+            "mirror_mesh",
+        ];
+        let pipelines = MirrorPipelines::new(by_points, |[vertex, fragment], buffers| {
+            let layouts = [
+                Some(&world.view_layout),
+                Some(&mirror_layout),
+                None,
+                Some(&world.corners_layout),
+            ];
+            let entries = entries(vertex, fragment);
+            raster_to(gpu, entries, &formats, true, &layouts, buffers)
+        });
         let with_normals = entries("vertex", "objects_and_normals");
         Self {
             objects: raster_to(gpu, with_normals, &formats, true, &objects, &[]),
-            exact: mirror("mirror_exact"),
-            mesh: mirror("mirror_mesh"),
+            pipelines,
             mirrors: mirrors.collect(),
         }
     }

@@ -2,10 +2,10 @@
 
 use crate::error::ReflectError;
 use crate::gpu::{
-    Begin, DEPTH, FLOAT4, Gpu, RasterTargets, Recorder, Slot, group, layout, module, raster,
+    Begin, DEPTH, FLOAT4, Gpu, RasterEntries, Recorder, Slot, group, layout, module, raster_to,
     target, view,
 };
-use crate::stage::world::World;
+use crate::stage::world::{MirrorPipelines, World};
 
 /// The pass `gbuffer` and its targets.
 pub(crate) struct GBuffer {
@@ -19,8 +19,7 @@ pub(crate) struct GBuffer {
     pub mirror_groups: Vec<wgpu::BindGroup>,
     /// Group 1 while the G-buffer is drawn: the uniform alone. One a mirror.
     draw_groups: Vec<wgpu::BindGroup>,
-    exact: wgpu::RenderPipeline,
-    mesh: wgpu::RenderPipeline,
+    pipelines: MirrorPipelines,
 }
 
 impl GBuffer {
@@ -47,25 +46,31 @@ impl GBuffer {
             .iter()
             .map(|mirror| group(gpu, &draw_layout, &[mirror.uniform.as_entire_binding()]));
         let module = module(gpu, "stage/gbuffer", &[])?;
-        let corner = wgpu::VertexBufferLayout {
-            array_stride: 36,
-            step_mode: wgpu::VertexStepMode::Vertex,
-            attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x3],
-        };
-        let pipeline = |entry| {
-            let targets = RasterTargets {
-                colors: 2,
-                depth: true,
+        let entries = [
+            "vertex",
+            "exact",
+            "triangle_vertex",
+            "exact_triangle",
+            "mesh",
+        ];
+        let pipelines = MirrorPipelines::new(entries, |[vertex, fragment], buffers| {
+            let entries = RasterEntries {
+                module: &module,
+                vertex,
+                fragment,
             };
-            let layouts = [Some(&world.view_layout), Some(&draw_layout)];
-            let buffers = [Some(corner.clone())];
-            raster(gpu, &module, entry, targets, &layouts, &buffers)
-        };
+            let layouts = [
+                Some(&world.view_layout),
+                Some(&draw_layout),
+                None,
+                Some(&world.corners_layout),
+            ];
+            raster_to(gpu, entries, &[FLOAT4; 2], true, &layouts, buffers)
+        });
         Ok(Self {
             mirror_groups: mirror_groups.collect(),
             draw_groups: draw_groups.collect(),
-            exact: pipeline("exact"),
-            mesh: pipeline("mesh"),
+            pipelines,
             position,
             normal,
             mirror_layout,
@@ -83,15 +88,9 @@ impl GBuffer {
         let targets = [&targets[0], &targets[1]];
         frame.render("gbuffer", &targets, Begin::Clear, Some(depth), |pass| {
             for (mirror, group) in world.mirrors.iter().zip(&self.draw_groups) {
-                pass.set_pipeline(if mirror.exact {
-                    &self.exact
-                } else {
-                    &self.mesh
-                });
                 pass.set_bind_group(0, &world.view_group, &[]);
                 pass.set_bind_group(1, group, &[]);
-                pass.set_vertex_buffer(0, mirror.vertices.slice(..));
-                pass.draw(0..mirror.vertex_count, 0..1);
+                self.pipelines.draw(pass, mirror);
             }
         });
     }
@@ -122,7 +121,8 @@ impl MirrorsAlone {
 
 #[cfg(test)]
 mod tests {
-    use glam::{DVec2, DVec3};
+    use catoptric_scene::{Mesh, Shape};
+    use glam::{DVec2, DVec3, Vec3};
 
     use crate::testing::{gpu_or_skip, scene};
 
@@ -178,6 +178,75 @@ mod tests {
             assert!(p99 < ANGLE_P99_DEG, "{name}: {p99}°");
             let share = f64::from(unlike) / angles.len() as f64;
             assert!(share <= GRAZING, "{name}: {unlike} pixels unlike");
+        }
+    }
+
+    /// Distance between the shader's hit and the exact one, as a share of the distance to the eye, and
+    /// between the normals: a few rounding steps of single precision.
+    const POSITION: f64 = 1e-6;
+    const NORMAL: f64 = 4e-6;
+
+    /// The nearest triangle that a ray meets, not at its edge: position and interpolated normal.
+    fn exact(mesh: &Mesh, eye: DVec3, dir: DVec3) -> Option<(DVec3, DVec3)> {
+        const EDGE: f64 = 1e-3;
+        let hits = mesh.triangles.iter().zip(&mesh.normals);
+        let hits = hits.filter_map(|(triangle, normals)| {
+            let [a, b, c] = triangle.map(|i| mesh.positions[i as usize].as_dvec3() - eye);
+            let across = (b - a).cross(c - a);
+            let t = a.dot(across) / dir.dot(across);
+            let weights = [b.cross(c), c.cross(a), a.cross(b)].map(|n| dir.dot(n));
+            let sum: f64 = weights.iter().sum();
+            let [u, v, w] = weights.map(|weight| weight / sum);
+            let [na, nb, nc] = normals.map(Vec3::as_dvec3);
+            let normal = (u * na + v * nb + w * nc).normalize();
+            (t > 0.0 && u.min(v).min(w) > -EDGE).then_some((t, u.min(v).min(w), normal))
+        });
+        let (t, least, normal) = hits.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        (least > EDGE).then_some((eye + t * dir, normal))
+    }
+
+    #[test]
+    fn a_mesh_is_met_exactly_whatever_the_rasterizer_makes_of_it() {
+        let Some(gpu) = gpu_or_skip() else { return };
+        let faceted = scene("faceted");
+        let mut smooth = scene("sphere-square");
+        let mesh = smooth.mirrors[0].shape.tessellate(40);
+        smooth.mirrors[0].shape = Shape::Mesh(mesh);
+        for (name, scene) in [("faceted", faceted), ("smooth", smooth)] {
+            let view = scene.camera.view(SIZE);
+            let mesh = scene.mirrors[0].shape.as_mesh().expect("a mesh");
+            let worst = |options: &str| {
+                let spec = crate::parse(&format!("linear({options})")).expect("a technique");
+                let mut prepared = crate::prepare(&gpu, &spec, &scene, SIZE).expect("fits");
+                let frame = prepared.render().expect("a frame").frame;
+                let primary = frame.primary.expect("layers");
+                let (mut count, mut position, mut normal) = (0, 0.0_f64, 0.0_f64);
+                for (index, id) in primary.id.pixels().iter().enumerate() {
+                    let (x, y) = (index as u32 % SIZE[0], index as u32 / SIZE[0]);
+                    let dir = view.ray(DVec2::new(f64::from(x), f64::from(y)) + 0.5);
+                    if *id != scene.mirror_id(0) {
+                        continue;
+                    }
+                    let Some((hit, upright)) = exact(mesh, view.eye, dir) else {
+                        continue;
+                    };
+                    count += 1;
+                    let drawn = primary.position.at(x, y).as_dvec3();
+                    position = position.max(drawn.distance(hit) / hit.distance(view.eye));
+                    normal = normal.max(primary.normal.at(x, y).as_dvec3().distance(upright));
+                }
+                println!("{name} {options}: {count} pixels, {position:e}, {normal:e}");
+                assert!(count > 1000, "{name}: {count} pixels");
+                (position, normal)
+            };
+            let (position, normal) = worst("gbuffer=exact");
+            assert!(
+                position < POSITION && normal < NORMAL,
+                "{name}: {position:e}, {normal:e}"
+            );
+            // What the rasterizer interpolates is further off: it snaps corners to a grid.
+            let (rasterized, _) = worst("gbuffer=mesh");
+            assert!(rasterized > 10.0 * position, "{name}: {rasterized:e}");
         }
     }
 }

@@ -1,6 +1,9 @@
 //! What the objects of a scene are on the GPU: one list of vertices, corners and materials for all.
 
-use catoptric_scene::{Mesh, Paint, Scene};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use catoptric_scene::{Mesh, Paint, Samples, Scene, Texture, first_of_coincident};
 use encase::ShaderType;
 use glam::{Vec2, Vec3};
 
@@ -24,6 +27,7 @@ pub(crate) struct MaterialUniform {
     pub first_texel: u32,
     pub width: u32,
     pub height: u32,
+    pub table: u32,
 }
 
 /// All object geometry of a scene, flattened.
@@ -32,28 +36,51 @@ pub(crate) struct Geometry {
     pub positions: Vec<[f32; 4]>,
     pub corners: Vec<Corner>,
     pub materials: Vec<MaterialUniform>,
-    pub texels: Vec<[f32; 4]>,
+    /// Of each texture a table of linear values, then the texels, which hold places in it.
+    pub texels: Vec<u32>,
+    /// Where a texture's table and texels begin, by its address.
+    textures: HashMap<*const Texture, [u32; 2]>,
+}
+
+/// World-space positions of all objects' vertices, one after the other, w = 1.
+pub(crate) fn positions(scene: &Scene) -> Vec<[f32; 4]> {
+    let meshes = scene.objects.iter().map(|object| &object.mesh);
+    let positions = meshes.flat_map(|mesh| &mesh.positions);
+    positions.map(|p| [p.x, p.y, p.z, 1.0]).collect()
 }
 
 impl Geometry {
     pub(crate) fn new(scene: &Scene) -> Self {
-        let mut geometry = Self::default();
+        let mut geometry = Self {
+            positions: positions(scene),
+            ..Self::default()
+        };
+        let mut first_vertex = 0;
         for (index, object) in scene.objects.iter().enumerate() {
-            geometry.add(&object.mesh, scene.object_id(index));
+            geometry.add(&object.mesh, scene.object_id(index), first_vertex);
+            first_vertex += object.mesh.positions.len() as u32;
         }
         geometry
     }
 
-    fn add(&mut self, mesh: &Mesh, object: u32) {
-        let first_vertex = self.positions.len() as u32;
+    fn add(&mut self, mesh: &Mesh, object: u32, first_vertex: u32) {
         let first_material = self.materials.len() as u32;
-        self.positions
-            .extend(mesh.positions.iter().map(|p| [p.x, p.y, p.z, 1.0]));
         for material in &mesh.materials {
             self.add_material(&material.paint);
         }
+        // Of coincident triangles the first is seen; the others become points, so that rounding does not
+        // choose between them.
+        let first = first_of_coincident(mesh.triangles.len(), |index| {
+            let corners = mesh.triangles[index].map(|vertex| mesh.positions[vertex as usize]);
+            (corners, false)
+        });
         for (index, triangle) in mesh.triangles.iter().enumerate() {
-            for (corner, vertex) in triangle.iter().enumerate() {
+            let triangle = if first[index] {
+                *triangle
+            } else {
+                [triangle[0]; 3]
+            };
+            for (corner, vertex) in triangle.into_iter().enumerate() {
                 self.corners.push(Corner {
                     uv: mesh.uvs.get(index).map_or(Vec2::ZERO, |uvs| uvs[corner]),
                     vertex: first_vertex + vertex,
@@ -77,6 +104,7 @@ impl Geometry {
             first_texel: 0,
             width: 0,
             height: 0,
+            table: 0,
         };
         match paint {
             Paint::Color(color) => material.a = *color,
@@ -90,21 +118,49 @@ impl Geometry {
                 };
             }
             Paint::Texture { tint, image } => {
-                let first_texel = self.texels.len() as u32;
-                self.texels
-                    .extend(image.texels.iter().map(|t| [t.x, t.y, t.z, 1.0]));
+                let [table, first_texel] = self.texture(image);
                 material = MaterialUniform {
                     a: *tint,
-                    kind: 2,
+                    kind: match image.samples() {
+                        Samples::Eight(_) => 2,
+                        Samples::Sixteen(_) => 4,
+                    },
                     first_texel,
-                    width: image.width,
-                    height: image.height,
+                    width: image.width(),
+                    height: image.height(),
+                    table,
                     ..material
                 };
             }
             Paint::Vertex => material.kind = 3,
         }
         self.materials.push(material);
+    }
+
+    /// Where the table and the texels of a texture begin; one that several materials show is there
+    /// once.
+    fn texture(&mut self, image: &Arc<Texture>) -> [u32; 2] {
+        let address = Arc::as_ptr(image);
+        if let Some(places) = self.textures.get(&address) {
+            return *places;
+        }
+        let table = self.texels.len() as u32;
+        (self.texels).extend(image.table().iter().map(|value| value.to_bits()));
+        let first_texel = self.texels.len() as u32;
+        match image.samples() {
+            Samples::Eight(texels) => (self.texels).extend(
+                texels
+                    .iter()
+                    .map(|[r, g, b]| u32::from_le_bytes([*r, *g, *b, 0])),
+            ),
+            Samples::Sixteen(texels) => (self.texels).extend(
+                texels
+                    .iter()
+                    .flat_map(|[r, g, b]| [u32::from(*r) | u32::from(*g) << 16, u32::from(*b)]),
+            ),
+        }
+        self.textures.insert(address, [table, first_texel]);
+        [table, first_texel]
     }
 }
 
@@ -135,7 +191,8 @@ mod tests {
                 cells,
                 first_texel,
                 width,
-                height
+                height,
+                table
             },
             "stage/primary",
             &[],

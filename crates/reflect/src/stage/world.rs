@@ -2,15 +2,12 @@
 
 use catoptric_frame::Name;
 use catoptric_scene::{Mesh, Mirror, Scene};
-use encase::ShaderSize;
 use glam::Vec3;
-use wgpu::util::DeviceExt;
 
 use crate::error::ReflectError;
-use crate::gpu::{Gpu, Slot, group, layout, set_uniform, storage, storage_bytes, uniform};
-use crate::stage::geometry::{Corner, Geometry};
+use crate::gpu::{Gpu, Slot, buffer, group, layout, set_uniform, storage, storage_bytes, uniform};
+use crate::stage::geometry::{Geometry, positions};
 use crate::stage::mirror::MirrorUniform;
-use crate::stage::points::Found;
 use crate::stage::view::ViewUniform;
 
 /// A scene on the GPU, for one image size.
@@ -32,22 +29,91 @@ pub(crate) struct World {
     /// Three times the number of triangles of all objects.
     pub corners: u32,
     pub mirrors: Vec<MirrorOnGpu>,
+    /// Group 3 of passes that draw mirrors: `mirror_corners` of `shared/mirror_mesh.wesl`.
+    pub corners_layout: wgpu::BindGroupLayout,
 }
 
 /// A mirror on the GPU.
 pub(crate) struct MirrorOnGpu {
     pub id: u32,
-    /// Its surface is intersected exactly by each eye ray, not taken from the triangles.
-    pub exact: bool,
+    pub points: PointsFrom,
     /// A [`MirrorUniform`].
     pub uniform: wgpu::Buffer,
     /// Position, shading normal and face normal of each corner of the drawn triangles.
-    pub vertices: wgpu::Buffer,
-    pub vertex_count: u32,
+    vertices: wgpu::Buffer,
+    vertex_count: u32,
+    /// For [`World::corners_layout`].
+    corners_group: wgpu::BindGroup,
+}
+
+/// Where the points of a mirror that are seen come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum PointsFrom {
+    /// Each eye ray is intersected with the surface itself; triangles only cover it.
+    Surface,
+    /// Each eye ray is intersected with the triangle that covers its pixel.
+    Triangle,
+    /// The rasterizer interpolates them between a triangle's corners.
+    Rasterizer,
+}
+
+impl PointsFrom {
+    fn of(mirror: &Mirror, exact: bool) -> Self {
+        match (exact, mirror.shape.is_analytic()) {
+            (true, true) => Self::Surface,
+            (true, false) => Self::Triangle,
+            (false, _) => Self::Rasterizer,
+        }
+    }
+}
+
+/// The pipelines that draw mirrors, by where their points come from.
+pub(crate) struct MirrorPipelines {
+    pub surface: wgpu::RenderPipeline,
+    pub triangle: wgpu::RenderPipeline,
+    pub rasterizer: wgpu::RenderPipeline,
+}
+
+impl MirrorPipelines {
+    /// Made by a function from entry points of a vertex and a fragment shader, and what of vertices
+    /// the first reads from a buffer.
+    pub(crate) fn new(
+        [vertex, surface, triangle_vertex, triangle, rasterizer]: [&'static str; 5],
+        make: impl Fn(
+            [&'static str; 2],
+            &[Option<wgpu::VertexBufferLayout<'_>>],
+        ) -> wgpu::RenderPipeline,
+    ) -> Self {
+        let corner = wgpu::VertexBufferLayout {
+            array_stride: 36,
+            step_mode: wgpu::VertexStepMode::Vertex,
+            attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x3],
+        };
+        let corners = [Some(corner)];
+        Self {
+            surface: make([vertex, surface], &corners),
+            triangle: make([triangle_vertex, triangle], &[]),
+            rasterizer: make([vertex, rasterizer], &corners),
+        }
+    }
+
+    /// Draws a mirror; groups 0 and 1 are bound by the caller.
+    pub(crate) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, mirror: &MirrorOnGpu) {
+        pass.set_pipeline(match mirror.points {
+            PointsFrom::Surface => &self.surface,
+            PointsFrom::Triangle => &self.triangle,
+            PointsFrom::Rasterizer => &self.rasterizer,
+        });
+        pass.set_bind_group(3, &mirror.corners_group, &[]);
+        if mirror.points != PointsFrom::Triangle {
+            pass.set_vertex_buffer(0, mirror.vertices.slice(..));
+        }
+        pass.draw(0..mirror.vertex_count, 0..1);
+    }
 }
 
 impl World {
-    /// Puts a scene on the GPU. `exact`: analytic mirrors are intersected; `dark`: mirrors are
+    /// Puts a scene on the GPU. `exact`: mirrors are intersected by each eye ray; `dark`: mirrors are
     /// black where no reflection is drawn.
     pub(crate) fn new(
         gpu: &Gpu,
@@ -61,16 +127,6 @@ impl World {
             return Err(ReflectError::Size { size, limit });
         }
         let geometry = Geometry::new(scene);
-        gpu.check_binding(
-            [
-                geometry.corners.len() as u64 * Corner::SHADER_SIZE.get(),
-                geometry.texels.len() as u64 * 16,
-                geometry.positions.len() as u64 * Found::SHADER_SIZE.get(),
-            ]
-            .into_iter()
-            .max()
-            .unwrap_or(0),
-        )?;
         let view_layout = layout(gpu, "view", &[Slot::Uniform]);
         let view = uniform(gpu, &ViewUniform::new(scene, size, dark));
         let surface_layout = layout(gpu, "surface", &[Slot::Read; 4]);
@@ -86,29 +142,37 @@ impl World {
             ],
         );
         let eye = scene.camera.view(size).eye;
+        let corners_layout = layout(gpu, "mirror corners", &[Slot::Read]);
+        let unread = storage_bytes(gpu, &[]);
         let mirrors = scene
             .mirrors
             .iter()
             .enumerate()
             .map(|(index, mirror)| {
-                let exact = exact && mirror.shape.is_analytic();
-                let corners = mirror_corners(mirror, exact);
+                let points = PointsFrom::of(mirror, exact);
+                let corners = mirror_corners(mirror, points);
                 let id = scene.mirror_id(index);
+                let usage = wgpu::BufferUsages::COPY_DST
+                    | match points {
+                        PointsFrom::Triangle => wgpu::BufferUsages::STORAGE,
+                        _ => wgpu::BufferUsages::VERTEX,
+                    };
+                let vertices = buffer(gpu, "mirror", bytemuck::cast_slice(&corners), usage);
+                let read = match points {
+                    PointsFrom::Triangle => &vertices,
+                    _ => &unread,
+                };
                 MirrorOnGpu {
                     id,
-                    exact,
+                    points,
                     uniform: uniform(gpu, &MirrorUniform::new(&*mirror.shape, id, eye)),
                     vertex_count: corners.len() as u32,
-                    vertices: gpu
-                        .device
-                        .create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                            label: Some("mirror"),
-                            contents: bytemuck::cast_slice(&corners),
-                            usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
-                        }),
+                    corners_group: group(gpu, &corners_layout, &[read.as_entire_binding()]),
+                    vertices,
                 }
             })
             .collect();
+        gpu.check()?;
         Ok(Self {
             size,
             scene: scene.clone(),
@@ -121,6 +185,7 @@ impl World {
             positions,
             corners: geometry.corners.len() as u32,
             mirrors,
+            corners_layout,
         })
     }
 
@@ -142,14 +207,14 @@ impl World {
             &self.view,
             &ViewUniform::new(scene, self.size, self.dark),
         );
-        let positions = Geometry::new(scene).positions;
+        let positions = positions(scene);
         gpu.queue
             .write_buffer(&self.positions, 0, bytemuck::cast_slice(&positions));
         let eye = scene.camera.view(self.size).eye;
         for (on_gpu, mirror) in self.mirrors.iter().zip(&scene.mirrors) {
             let data = MirrorUniform::new(&*mirror.shape, on_gpu.id, eye);
             set_uniform(gpu, &on_gpu.uniform, &data);
-            let corners = mirror_corners(mirror, on_gpu.exact);
+            let corners = mirror_corners(mirror, on_gpu.points);
             gpu.queue
                 .write_buffer(&on_gpu.vertices, 0, bytemuck::cast_slice(&corners));
         }
@@ -180,11 +245,10 @@ impl World {
 
 /// Position, shading normal and face normal of each corner of the triangles a mirror is drawn
 /// from: slightly outside the surface where each pixel intersects the surface itself.
-fn mirror_corners(mirror: &Mirror, exact: bool) -> Vec<[Vec3; 3]> {
-    let mesh = if exact {
-        mirror.shape.cover(mirror.tessellation)
-    } else {
-        mirror.shape.tessellate(mirror.tessellation)
+fn mirror_corners(mirror: &Mirror, points: PointsFrom) -> Vec<[Vec3; 3]> {
+    let mesh = match points {
+        PointsFrom::Surface => mirror.shape.cover(mirror.tessellation),
+        _ => mirror.shape.tessellate(mirror.tessellation),
     };
     corners(&mesh)
 }

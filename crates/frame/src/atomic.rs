@@ -6,14 +6,11 @@
 use std::fs::{self, Metadata};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::NamedTempFile;
 
 use crate::FrameError;
-
-/// Temporary files that are being written.
-static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+use crate::unfinished::{list, sweep_once};
 
 /// Replaces the file at `path` by these bytes: it is there whole or not at all. A file that was
 /// there keeps its mode; where `path` is a link, the file that it leads to is replaced.
@@ -21,13 +18,41 @@ static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 /// # Errors
 /// The file cannot be written, or what is there is no regular file. What was there is untouched.
 pub fn write_whole(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), FrameError> {
-    let path = path.as_ref();
-    Replacement::begin(path)?
-        .finish(bytes)
-        .map_err(|source| FrameError::Write {
-            path: path.into(),
-            source,
-        })
+    write_together(&[(path.as_ref(), bytes)])
+}
+
+/// Replaces several files that belong together, as [`write_whole`] does each of them, in this order:
+/// all of them are on the disk before the first one takes its place, and a signal that ends the
+/// program finds all of them replaced or none.
+///
+/// # Errors
+/// As of [`write_whole`]. Where one of the last steps fails, files before it are replaced.
+pub fn write_together(files: &[(&Path, &[u8])]) -> Result<(), FrameError> {
+    let write_error = |path: &Path| {
+        let path = path.to_owned();
+        |source| FrameError::Write { path, source }
+    };
+    let mut replacements = Vec::new();
+    for (path, bytes) in files {
+        let mut replacement = Replacement::begin(path)?;
+        replacement.fill(bytes).map_err(write_error(path))?;
+        replacements.push(replacement);
+    }
+    let mut list = list();
+    for ((path, _), replacement) in files.iter().zip(&mut replacements) {
+        let Some(temporary) = replacement.temporary.take() else {
+            continue;
+        };
+        let name = temporary.path().to_owned();
+        let put = temporary.persist(&replacement.target);
+        list.end_file(&name);
+        if let Err(failed) = put {
+            // Dropping the others waits for the list.
+            drop(list);
+            return Err(write_error(path)(without_path(&failed.error)));
+        }
+    }
+    Ok(())
 }
 
 /// Finds out whether [`write_whole`] could write here, and leaves everything as it is.
@@ -36,23 +61,6 @@ pub fn write_whole(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), FrameErro
 /// As of [`write_whole`], apart from a full disk.
 pub fn check_writable(path: impl AsRef<Path>) -> Result<(), FrameError> {
     Replacement::begin(path.as_ref()).map(drop)
-}
-
-/// Removes the temporary files of all writes that are under way, and keeps further ones from
-/// beginning: for a program that was told to end and does so next. May be called from a thread that
-/// handles signals.
-pub fn abandon_writes() {
-    let unfinished = unfinished();
-    for temporary in unfinished.iter() {
-        // The program ends: nobody is left to act on a failure.
-        let _ = fs::remove_file(temporary);
-    }
-    // Whoever begins a file waits for this lock until the program has ended.
-    std::mem::forget(unfinished);
-}
-
-fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
-    UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// A temporary file that is to take the place of another; dropped, it is removed.
@@ -101,9 +109,9 @@ impl Replacement {
             Some(folder) if !folder.as_os_str().is_empty() => folder,
             _ => Path::new("."),
         };
-        let mut unfinished = unfinished();
-        let temporary = temporary_in(folder).map_err(|error| write_error(without_path(&error)))?;
-        unfinished.push(temporary.path().to_owned());
+        sweep_once(folder);
+        let temporary = list().begin_file(folder);
+        let temporary = temporary.map_err(|error| write_error(without_path(&error)))?;
         Ok(Self {
             temporary: Some(temporary),
             target,
@@ -111,7 +119,8 @@ impl Replacement {
         })
     }
 
-    fn finish(mut self, bytes: &[u8]) -> io::Result<()> {
+    /// Writes the bytes to the disk, under the temporary name.
+    fn fill(&mut self, bytes: &[u8]) -> io::Result<()> {
         let Some(temporary) = &mut self.temporary else {
             return Ok(());
         };
@@ -120,15 +129,7 @@ impl Replacement {
         if let Some(existing) = &self.existing {
             file.set_permissions(existing.permissions())?;
         }
-        file.sync_all()?;
-        let path = temporary.path().to_owned();
-        // Kept in place while it is renamed: it stays listed until it bears its new name.
-        let renamed = self.temporary.take().map(|file| file.persist(&self.target));
-        forget(&path);
-        match renamed {
-            Some(Err(failed)) => Err(without_path(&failed.error)),
-            _ => Ok(()),
-        }
+        file.sync_all()
     }
 }
 
@@ -137,27 +138,9 @@ impl Drop for Replacement {
         if let Some(temporary) = self.temporary.take() {
             let path = temporary.path().to_owned();
             drop(temporary);
-            forget(&path);
+            list().end_file(&path);
         }
     }
-}
-
-/// Takes a temporary file off the list of those to be removed.
-fn forget(path: &Path) {
-    unfinished().retain(|listed| listed != path);
-}
-
-/// The name is short, so that whatever name the file is to have, this one fits too.
-fn temporary_in(folder: &Path) -> io::Result<NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".catoptric-").suffix(".tmp");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        // As of any new file: less what the process masks.
-        builder.permissions(fs::Permissions::from_mode(0o666));
-    }
-    builder.tempfile_in(folder)
 }
 
 /// An error as the operating system says it, without the name of the temporary file.
@@ -191,6 +174,20 @@ mod tests {
         check_writable(&path).unwrap();
         check_writable(folder.path().join("b")).unwrap();
         assert_eq!(names(folder.path()), ["a"]);
+    }
+
+    #[test]
+    fn files_are_replaced_together_or_not_at_all() {
+        let folder = tempfile::tempdir().unwrap();
+        let [a, b, nowhere] = ["a", "b", "no/c"].map(|name| folder.path().join(name));
+        fs::write(&a, "old").unwrap();
+        let failed = write_together(&[(&a, b"new"), (&nowhere, b"new")]);
+        assert!(matches!(failed, Err(FrameError::Write { .. })));
+        assert_eq!(fs::read(&a).unwrap(), b"old");
+        write_together(&[(&a, b"new"), (&b, b"other")]).unwrap();
+        assert_eq!(fs::read(&a).unwrap(), b"new");
+        assert_eq!(fs::read(&b).unwrap(), b"other");
+        assert_eq!(names(folder.path()), ["a", "b"]);
     }
 
     #[test]
@@ -268,13 +265,6 @@ mod tests {
             let error = write_whole("/dev/null", b"text").unwrap_err().to_string();
             assert!(error.contains("device"), "{error}");
             assert!(!fs::metadata("/dev/null").unwrap().is_file());
-        }
-
-        #[test]
-        fn two_temporary_files_differ_in_name_and_may_not_be_there_before() {
-            let folder = tempfile::tempdir().unwrap();
-            let [a, b] = [0, 1].map(|_| temporary_in(folder.path()).unwrap());
-            assert_ne!(a.path(), b.path());
         }
     }
 }

@@ -12,13 +12,15 @@ pub mod image;
 mod names;
 pub mod png;
 pub mod results;
+mod unfinished;
 
-pub use atomic::{abandon_writes, check_writable, write_whole};
+pub use atomic::{check_writable, write_together, write_whole};
 pub use channels::Channels;
 pub use error::FrameError;
 pub use image::Image;
 pub use png::{write_png, write_png_rgb8};
 pub use results::{Traced, Triangles, TrueVertex, VertexClass, VertexResult, VertexState, Work};
+pub use unfinished::{NewFolder, abandon_writes, create_folders, is_abandoned, sweep};
 
 use glam::Vec3;
 

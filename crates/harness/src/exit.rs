@@ -9,6 +9,8 @@ use catoptric_reference::ReferenceError;
 use catoptric_reflect::{GpuError, SpecError};
 use catoptric_scene::SceneError;
 
+use crate::terminal::say;
+
 /// How the program ends when it could run at all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
@@ -85,7 +87,7 @@ fn is_of_the_path(kind: io::ErrorKind) -> bool {
 /// Says on stderr what is odd in a scene's files, though it can be shown.
 pub fn warn(scene: &catoptric_scene::Scene) {
     for warning in &scene.warnings {
-        eprintln!("catoptric: warning: {warning}");
+        say(&format!("catoptric: warning: {warning}"));
     }
 }
 

@@ -3,23 +3,28 @@
 use std::path::Path;
 
 /// Each room, or file beside the rooms, and what it may know.
-const ROOMS: [(&str, &[&str]); 10] = [
-    ("exit", &[]),
+const ROOMS: [(&str, &[&str]); 12] = [
+    ("terminal", &[]),
+    ("exit", &["terminal"]),
     ("options", &[]),
+    ("input", &["exit"]),
     ("output", &["exit"]),
-    ("record", &["exit"]),
-    ("show", &["options", "output", "record"]),
-    ("run", &["exit", "options", "record"]),
+    ("record", &["exit", "input"]),
+    ("show", &["options", "output", "record", "terminal"]),
+    ("run", &["exit", "options", "record", "terminal"]),
     (
         "suites",
-        &["exit", "options", "output", "record", "run", "show"],
+        &[
+            "exit", "options", "output", "record", "run", "show", "terminal",
+        ],
     ),
-    ("check", &["exit", "options"]),
+    ("check", &["exit", "input", "options"]),
     ("export", &[]),
     (
         "cli",
         &[
-            "check", "exit", "export", "options", "output", "record", "run", "show", "suites",
+            "check", "exit", "export", "input", "options", "output", "record", "run", "show",
+            "suites", "terminal",
         ],
     ),
 ];

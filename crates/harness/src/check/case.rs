@@ -10,7 +10,8 @@ use clap::{Args, ValueEnum};
 use serde_json::Value;
 
 use crate::exit::bad_input;
-use crate::options::{Common, TruthArg};
+use crate::input;
+use crate::options::{Common, MOST_BOUNCES, MOST_SAMPLES, TruthArg, samples};
 
 /// What `check` is asked.
 #[derive(Clone, Debug, Args)]
@@ -30,7 +31,7 @@ pub struct Request {
     #[arg(long, value_enum)]
     pub start: Option<StartArg>,
     /// Samples a pixel it was made with, in a regular grid; default: as its sidecar says, else 1
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    #[arg(long, value_name = "N", value_parser = samples)]
     pub samples: Option<u32>,
 }
 
@@ -66,6 +67,10 @@ pub struct Case {
 /// The one picture that is asked for, or all stored ones by name.
 pub fn cases(args: &Request, common: &Common) -> anyhow::Result<Vec<Case>> {
     match (&args.file, &args.scene) {
+        (Some(file), _) if !file.exists() => Err(bad_input(format!(
+            "cannot read {}: there is no such file; without a file all stored pictures are checked",
+            file.display()
+        ))),
         (Some(file), Some(scene)) => Ok(vec![case(file, scene, args, common)?]),
         (Some(file), None) => match Sidecar::of(file)?.and_then(|sidecar| sidecar.scene) {
             Some(name) => Ok(vec![case(file, &beside(file, &name), args, common)?]),
@@ -167,12 +172,12 @@ fn case(file: &Path, scene: &str, args: &Request, common: &Common) -> anyhow::Re
         }
         None => vec![RayStart::Exact],
     };
-    let samples = args.samples.or(sidecar.samples).unwrap_or(1).max(1);
+    let samples = args.samples.or(sidecar.samples).unwrap_or(1);
     let side = samples.isqrt();
     if side * side != samples {
         return Err(bad_input(format!(
-            "{}: {samples} samples a pixel are no regular grid: a square number is needed",
-            file.display()
+            "{}: `settings.samples`, {samples} a pixel, is no regular grid: a square number is needed",
+            sidecar_path(file).display()
         )));
     }
     Ok(Case {
@@ -230,23 +235,38 @@ fn sidecar_path(file: &Path) -> PathBuf {
 impl Sidecar {
     fn of(file: &Path) -> anyhow::Result<Option<Self>> {
         let path = sidecar_path(file);
-        let text = match std::fs::read_to_string(&path) {
-            Ok(text) => text,
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-            Err(error) => {
-                return Err(error).with_context(|| format!("cannot read {}", path.display()));
+        if !path.exists() {
+            return Ok(None);
+        }
+        let value = input::json(&path)?;
+        let refused = |key: &str, value: &Value, wanted: &str| {
+            let found = input::brief(value);
+            let path = path.display();
+            bad_input(format!("{path}: `{key}` must be {wanted}, not {found}"))
+        };
+        let text = |key: &str| match value.get(key) {
+            None | Some(Value::Null) => Ok(None),
+            Some(Value::String(text)) => Ok(Some(text.clone())),
+            Some(other) => Err(refused(key, other, "a text")),
+        };
+        let count = |key: &str, most: u32| {
+            let value = &value["settings"][key];
+            let counted = value.as_u64().and_then(|count| u32::try_from(count).ok());
+            let counted = counted.filter(|count| (1..=most).contains(count));
+            let wanted = || format!("a whole number from 1 to {most}");
+            match counted {
+                None if !value.is_null() => {
+                    Err(refused(&format!("settings.{key}"), value, &wanted()))
+                }
+                counted => Ok(counted),
             }
         };
-        let value: Value = serde_json::from_str(&text)
-            .map_err(|error| bad_input(format!("{}: {error}", path.display())))?;
-        let text = |value: &Value| value.as_str().map(str::to_owned);
-        let count = |value: &Value| value.as_u64().and_then(|count| u32::try_from(count).ok());
         Ok(Some(Self {
-            scene: text(&value["scene"]),
-            scene_hash: text(&value["scene_hash"]),
-            renderer: text(&value["renderer"]),
-            samples: count(&value["settings"]["samples"]),
-            bounces: count(&value["settings"]["bounces"]),
+            scene: text("scene")?,
+            scene_hash: text("scene_hash")?,
+            renderer: text("renderer")?,
+            samples: count("samples", MOST_SAMPLES)?,
+            bounces: count("bounces", MOST_BOUNCES)?,
         }))
     }
 }

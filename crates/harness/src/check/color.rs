@@ -15,7 +15,7 @@ pub fn beyond(theirs: &Image<Vec3>, ours: &Image<Vec3>, side: u32) -> Image<f32>
         } else {
             (ours.pixels()[at] - ray, ours.pixels()[at] + ray)
         };
-        if theirs.is_nan() {
+        if !theirs.is_finite() {
             return f32::NAN;
         }
         (low - *theirs)
@@ -27,10 +27,10 @@ pub fn beyond(theirs: &Image<Vec3>, ours: &Image<Vec3>, side: u32) -> Image<f32>
     Image::from_vec(theirs.size(), pixels)
 }
 
-/// The greatest channel of a picture.
+/// The greatest channel of a picture, where it is a number.
 pub fn largest(picture: &Image<Vec3>) -> f32 {
-    let greater = |most: f32, pixel: &Vec3| most.max(pixel.max_element());
-    picture.pixels().iter().fold(0.0, greater)
+    let finite = picture.pixels().iter().filter(|pixel| pixel.is_finite());
+    finite.fold(0.0, |most, pixel| most.max(pixel.max_element()))
 }
 
 /// Least and greatest of each channel in the pixels around one.
@@ -63,6 +63,7 @@ mod tests {
         assert_eq!(beyond([1.0, 0.0, 1.0, 1.0]), [1.0, 0.0, 0.0, 0.0]);
         assert_eq!(beyond([0.0, 0.0, 1.0, 1.25]), [0.0, 0.0, 0.0, 0.25]);
         assert!(beyond([f32::NAN, 0.0, 1.0, 1.0])[0].is_nan());
+        assert!(beyond([f32::INFINITY, 0.0, 1.0, 1.0])[0].is_nan());
     }
 
     #[test]
@@ -70,5 +71,7 @@ mod tests {
         let ours = row([0.0, 0.0, 1.0, 1.0]);
         let beyond = beyond(&row([0.25, 0.5, 0.75, 1.0]), &ours, 2);
         assert_eq!(beyond.pixels(), [0.0, 0.25, 0.0, 0.0]);
+        let infinite = super::beyond(&row([f32::INFINITY, 0.5, 0.0, 0.0]), &ours, 2);
+        assert!(infinite.pixels()[0].is_nan() && infinite.pixels()[2] > 0.0);
     }
 }

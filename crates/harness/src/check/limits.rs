@@ -4,7 +4,8 @@
 //! by (1 + the largest coordinate) · 1500 · 2⁻²⁴, some 3e-4 in a scene a few units wide; ours
 //! are exact to f64. Both grow with the distance from the origin, and so do the limits of lengths:
 //! they are stated for mirrors whose points have coordinates up to [`REACH`], and larger in
-//! proportion beyond.
+//! proportion beyond. A point that is off by a length has a normal that is off by an angle, the larger
+//! the more the mirror is curved: so much are the limits of normals and directions wider.
 
 use catoptric_reference::RayStart;
 
@@ -27,6 +28,17 @@ pub fn agree_once(start: RayStart, scale: f64) -> f64 {
         RayStart::Mitsuba => AGREE,
     }
 }
+
+/// What a 32-bit float can tell of a number: half the distance to the next one, relative.
+pub const FLOAT: f64 = 1.0 / 16_777_216.0;
+
+/// How many times a coordinate is rounded on the way to a normal, in the median and at the 99.9th
+/// percentile: as a ray starts, meets, and is seen from the mirror's middle. Where a ray grazes the
+/// mirror a point moves further along it than the coordinates say.
+pub const ROUNDINGS: Distance = Distance {
+    p50: 4.0,
+    p999: 40.0,
+};
 
 /// As many pixels may always disagree, or be further off than the 99.9th percentile may: that is
 /// the share above of a small mirror.
@@ -97,6 +109,14 @@ impl Distance {
         Self {
             p50: self.p50 + by,
             p999: self.p999 + by,
+        }
+    }
+
+    /// Both further by the angle that a normal turns by as often as coordinates are rounded.
+    pub fn turned(self, turn: f64) -> Self {
+        Self {
+            p50: self.p50 + ROUNDINGS.p50 * turn,
+            p999: self.p999 + ROUNDINGS.p999 * turn,
         }
     }
 

@@ -1,6 +1,6 @@
 //! Layer by layer: how far a picture is from what our tracer sees.
 
-use catoptric_frame::{Channels, FrameError, Image, Status};
+use catoptric_frame::{Channels, FrameError, Image, Primary, Status};
 use catoptric_metrics::stats::percentile;
 use glam::Vec3;
 
@@ -40,6 +40,7 @@ pub fn measure(channels: &Channels, ours: &Ours) -> Result<Measured, FrameError>
     let (primary, reflected) = (&ours.primary, &ours.reflected);
     let masks = Masks::new(&theirs, primary, reflected);
     let scale = (median_reach(&primary.position, &masks.same_mirror) / limits::REACH).max(1.0);
+    let turn = turn(primary, &masks.same_mirror);
     let mut layers = Vec::new();
 
     if let Some(id) = &theirs.primary_id {
@@ -65,8 +66,9 @@ pub fn measure(channels: &Channels, ours: &Ours) -> Result<Measured, FrameError>
     }
     if let Some(normal) = channels.positions("primary.normal.")? {
         let limit = limits::PRIMARY_NORMAL.widened(rounding(channels, "primary.normal.", 1.0));
+        let limit = limit.turned(turn);
         let pairs = normal.pixels().iter().zip(primary.normal.pixels());
-        let off = pairs.map(|(a, b)| a.distance(*b).min(a.distance(-*b)));
+        let off = pairs.map(|(a, b)| far(*a, *b).min(far(*a, -*b)));
         let off = Image::from_vec(normal.size(), off.collect());
         layers.push(Layer::distance(
             "primary.normal",
@@ -77,6 +79,8 @@ pub fn measure(channels: &Channels, ours: &Ours) -> Result<Measured, FrameError>
     }
     if let Some(direction) = channels.positions("reflected.direction.")? {
         let limit = limits::DIRECTION.widened(rounding(channels, "reflected.direction.", 1.0));
+        // A mirror that turns by an angle turns what it reflects by twice that angle.
+        let limit = limit.turned(2.0 * turn);
         let off = apart(&direction, &ours.direction);
         layers.push(Layer::distance(
             "reflected.direction",
@@ -139,14 +143,12 @@ pub fn measure(channels: &Channels, ours: &Ours) -> Result<Measured, FrameError>
         }
     }
     if let Some(distances) = channels.numbers("reflected.distance")? {
-        let extent = distances
-            .pixels()
-            .iter()
-            .fold(0.0f32, |most, t| most.max(t.abs()));
+        let finite = distances.pixels().iter().filter(|t| t.is_finite());
+        let extent = finite.fold(0.0f32, |most, t| most.max(t.abs()));
         let limit = limit.widened(rounding(channels, "reflected.distance", extent));
         let pairs = distances.pixels().iter().zip(reflected.distance.pixels());
-        let off = pairs.map(|(theirs, ours)| (theirs - ours).abs()).collect();
-        let off = Image::from_vec(distances.size(), off);
+        let off = pairs.map(|(theirs, ours)| (f64::from(*theirs) - f64::from(*ours)).abs() as f32);
+        let off = Image::from_vec(distances.size(), off.collect());
         layers.push(Layer::distance(
             "reflected.distance",
             &masks.after_one,
@@ -188,14 +190,51 @@ fn rounding(channels: &Channels, prefix: &str, extent: f32) -> f64 {
     }
 }
 
+/// The largest coordinate. One that is infinite is no measure of how the others are rounded.
 fn extent(image: &Image<Vec3>) -> f32 {
-    let largest = |most: f32, pixel: &Vec3| most.max(pixel.abs().max_element());
-    image.pixels().iter().fold(0.0, largest)
+    let finite = image.pixels().iter().filter(|pixel| pixel.is_finite());
+    finite.fold(0.0, |most, pixel| most.max(pixel.abs().max_element()))
 }
 
 fn apart(theirs: &Image<Vec3>, ours: &Image<Vec3>) -> Image<f32> {
     let pairs = theirs.pixels().iter().zip(ours.pixels());
-    Image::from_vec(theirs.size(), pairs.map(|(a, b)| a.distance(*b)).collect())
+    Image::from_vec(theirs.size(), pairs.map(|(a, b)| far(*a, *b)).collect())
+}
+
+/// The distance between two points, whose square need not fit a 32-bit float.
+fn far(a: Vec3, b: Vec3) -> f32 {
+    a.as_dvec3().distance(b.as_dvec3()) as f32
+}
+
+/// By what angle, in radians, the normals of the mirrors turn where their points move by what a
+/// 32-bit float can tell of a coordinate: how far that is, times how strongly the mirror is curved
+/// there, from pixel to pixel. In the median over the pixels within a mask, as far as it is more than on
+/// a mirror of radius 1 that reaches to [`limits::REACH`]; 0 where there are no pixels.
+fn turn(primary: &Primary, mask: &[bool]) -> f64 {
+    let [width, height] = primary.id.size();
+    let kept = |x: u32, y: u32| mask[(y * width + x) as usize];
+    let mut turns = Vec::new();
+    for y in 0..height {
+        for x in 0..width {
+            let beside = [(x + 1, y), (x, y + 1)];
+            let inside = beside
+                .into_iter()
+                .filter(|(x, y)| *x < width && *y < height);
+            let same = inside.filter(|(u, v)| {
+                kept(x, y) && kept(*u, *v) && primary.id.at(x, y) == primary.id.at(*u, *v)
+            });
+            let at = primary.position.at(x, y).as_dvec3();
+            let reach = 1.0 + at.abs().max_element();
+            turns.extend(same.filter_map(|(u, v)| {
+                let bend = far(*primary.normal.at(x, y), *primary.normal.at(u, v));
+                let step = at.distance(primary.position.at(u, v).as_dvec3());
+                (step > 0.0).then(|| reach * limits::FLOAT * f64::from(bend) / step)
+            }));
+        }
+    }
+    turns.sort_by(f64::total_cmp);
+    let median = percentile(&turns, 0.5).unwrap_or(0.0);
+    (median - limits::REACH * limits::FLOAT).max(0.0)
 }
 
 /// Colours of what is seen after at most one reflection and, where there are such, after more.

@@ -45,9 +45,9 @@ pub fn verdict(case: &Case, start: RayStart) -> anyhow::Result<Verdict<'_>> {
     for truth in &case.truths {
         let ours = Ours::trace(&case.scene, case.channels.size(), *truth, start, case.side)?;
         let measured = measure::measure(&case.channels, &ours)?;
-        if measured.layers.is_empty() {
+        if measured.layers.iter().all(|layer| layer.pixels == 0) {
             return Err(bad_input(format!(
-                "{}: no layer that could be compared; it has {}",
+                "{}: no pixel of any layer could be compared; it has the channels {}",
                 case.name,
                 case.channels.channel_names().collect::<Vec<_>>().join(", ")
             )));

@@ -15,6 +15,7 @@ use crate::options::{Common, Format};
 use crate::run::progress::Progress;
 use crate::show::print;
 use crate::show::table::Table;
+use crate::terminal::say;
 
 /// Where error maps go if nothing else is said.
 const MAPS: &str = "check-errors";
@@ -36,9 +37,9 @@ pub fn run(args: &Request, common: &Common) -> anyhow::Result<Outcome> {
     let maps = write_maps(&verdicts, &folder)?;
     show(&verdicts, common.format)?;
     if !common.quiet {
-        say(&verdicts);
+        remark(&verdicts);
         if maps > 0 {
-            eprintln!("{maps} error maps in {}", folder.display());
+            say(&format!("{maps} error maps in {}", folder.display()));
         }
     }
     Ok(if verdicts.iter().all(Verdict::passed) {
@@ -128,28 +129,34 @@ fn show(verdicts: &[Verdict<'_>], format: Format) -> anyhow::Result<()> {
 }
 
 /// What the table has no column for.
-fn say(verdicts: &[Verdict<'_>]) {
+fn remark(verdicts: &[Verdict<'_>]) {
     for Verdict { case, measured, .. } in verdicts.iter().filter(|v| v.start == v.case.starts[0]) {
         if let Some(hash) = &case.stale {
-            eprintln!(
+            say(&format!(
                 "{}: stale: the scene has changed since the picture was made ({:.12} was, {:.12} is); \
                  render it again",
                 case.name, hash, case.scene.hash
-            );
+            ));
+        }
+        for layer in measured.layers.iter().filter(|layer| layer.not_numbers > 0) {
+            say(&format!(
+                "{}: {}: {} of {} pixels are NaN or infinite, or too far off for a 32-bit float",
+                case.name, layer.layer, layer.not_numbers, layer.pixels
+            ));
         }
         if measured.apart > 0 {
-            eprintln!(
+            say(&format!(
                 "{}: {} of {} mirror pixels reflect below the mesh's surface: counted apart",
                 case.name, measured.apart, measured.mirror_pixels
-            );
+            ));
         }
     }
     let fell = verdicts.iter().filter(|verdict| !verdict.passed()).count();
-    eprintln!(
+    say(&format!(
         "{} of {} comparisons hold",
         verdicts.len() - fell,
         verdicts.len()
-    );
+    ));
 }
 
 /// Writes a map of each layer that falls short; how many.

@@ -8,16 +8,18 @@ use catoptric_reflect::Spec;
 use serde_json::Value;
 
 use crate::exit::{Outcome, bad_input};
+use crate::input::brief;
 use crate::options::{Common, Format, seconds};
 use crate::output::check_writable;
 use crate::record::gate::Gate;
 use crate::record::path::lookup;
-use crate::record::{self, Record, Status, against, metrics, schema};
+use crate::record::{self, Record, Status, against, metrics};
 use crate::run::interrupt::interrupted;
 use crate::run::load::parse;
 use crate::run::{Setup, measure, product};
 use crate::show::table::cell;
 use crate::show::{changes, print, records};
+use crate::terminal::say;
 
 /// What `compare` is asked.
 #[derive(Clone, Debug, clap::Args)]
@@ -171,7 +173,7 @@ fn read_baseline(path: &Path) -> anyhow::Result<Vec<Value>> {
                 path.display(),
                 cell(row.get("scene")),
                 cell(row.get("technique")),
-                schema::brief(value)
+                brief(value)
             )));
         }
         let spec = row["technique"].as_str().map(catoptric_reflect::parse);
@@ -186,32 +188,35 @@ fn read_baseline(path: &Path) -> anyhow::Result<Vec<Value>> {
 fn outcome(rows: &[Record], values: &[Value], gates: &[Gate], wanted: usize) -> Outcome {
     let mut outcome = Outcome::Done;
     if interrupted() && rows.len() < wanted {
-        eprintln!(
+        say(&format!(
             "catoptric: interrupted after {} of {wanted} rows",
             rows.len()
-        );
+        ));
         outcome = Outcome::FellShort;
     }
     for (row, value) in rows.iter().zip(values) {
         if row.status == Status::Failed {
             let reason = row.reason.as_deref().unwrap_or_default();
-            eprintln!(
+            say(&format!(
                 "catoptric: {}, {}: failed: {reason}",
                 row.scene, row.technique
-            );
+            ));
             outcome = Outcome::FellShort;
         }
         if row.status != Status::Ok {
             continue;
         }
         for trip in gates.iter().filter_map(|gate| gate.trips(value)) {
-            eprintln!("catoptric: {}, {}: gate {trip}", row.scene, row.technique);
+            say(&format!(
+                "catoptric: {}, {}: gate {trip}",
+                row.scene, row.technique
+            ));
             outcome = Outcome::FellShort;
         }
     }
     // A gate that no row could break shows nothing.
     if !gates.is_empty() && rows.iter().all(|row| row.status != Status::Ok) {
-        eprintln!("catoptric: gates were given, and no row has a measurement");
+        say("catoptric: gates were given, and no row has a measurement");
         outcome = Outcome::FellShort;
     }
     outcome

@@ -6,6 +6,7 @@ use crate::exit::{Outcome, bad_input};
 use crate::export::mitsuba;
 use crate::options::Common;
 use crate::run::load::load_options;
+use crate::terminal::say;
 
 /// What `export` is asked.
 #[derive(Clone, Debug, clap::Args)]
@@ -33,12 +34,12 @@ pub fn run(args: &Args, common: &Common) -> anyhow::Result<Outcome> {
     }
     mitsuba::write(&scene, common.bounces, folder)?;
     if !common.quiet {
-        eprintln!(
+        say(&format!(
             "{}: {} objects, {} mirrors for Mitsuba 3",
             folder.join(mitsuba::SCENE_FILE).display(),
             scene.objects.len(),
             scene.mirrors.len()
-        );
+        ));
     }
     Ok(Outcome::Done)
 }

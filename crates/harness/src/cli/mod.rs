@@ -13,25 +13,46 @@ mod reference;
 mod render;
 mod report;
 mod summary;
+mod unused;
 
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::{CommandFactory, FromArgMatches};
 
 use crate::exit::{self, Outcome, bad_input};
 use crate::options::Common;
+use crate::run::interrupt;
+use crate::terminal::{plain, say};
 
 use self::args::{Cli, Command};
 
 /// The program: reads the command line, does what it says, and answers with an exit code.
 pub fn main() -> ExitCode {
-    match run(Cli::parse()) {
+    interrupt::end_cleanly();
+    let matches = Cli::command().try_get_matches();
+    let (matches, cli) = match matches.and_then(|all| Ok((Cli::from_arg_matches(&all)?, all))) {
+        Ok((cli, matches)) => (matches, cli),
+        Err(error) => return misread(&error),
+    };
+    match unused::refuse(&matches).and_then(|()| run(cli)) {
         Ok(outcome) => outcome.into(),
         Err(error) => {
-            eprintln!("catoptric: {error:#}");
+            say(&format!("catoptric: {error:#}"));
             ExitCode::from(exit::code(&error))
         }
     }
+}
+
+/// Says what is wrong with a command line, or the help that was asked for.
+fn misread(error: &clap::Error) -> ExitCode {
+    let text = error.render().to_string();
+    if plain(&text) == text {
+        // In colour, where the terminal has some. Where nobody can read it, it is lost.
+        let _ = error.print();
+    } else {
+        say(text.trim_end());
+    }
+    ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
 }
 
 fn run(Cli { command, common }: Cli) -> anyhow::Result<Outcome> {

@@ -9,6 +9,7 @@ use crate::exit::{Outcome, bad_input};
 use crate::options::Common;
 use crate::output::check_writable;
 use crate::run::load::load_options;
+use crate::terminal::say;
 
 /// A scene by its name.
 pub fn open(name: &str, common: &Common) -> anyhow::Result<Scene> {
@@ -23,8 +24,8 @@ pub fn target(common: &Common) -> anyhow::Result<PathBuf> {
         .output
         .as_ref()
         .ok_or_else(|| bad_input("say where to: -o FILE.exr or -o FILE.png"))?;
-    kind(path)?;
     check_writable(path)?;
+    kind(path)?;
     Ok(path.clone())
 }
 
@@ -69,10 +70,10 @@ pub fn write(frame: &Frame, path: &Path, common: &Common) -> anyhow::Result<Outc
         } else {
             ""
         };
-        eprintln!(
+        say(&format!(
             "{}: {width}x{height} pixels, {mirror} of them mirror{remark}",
             path.display()
-        );
+        ));
     }
     Ok(Outcome::Done)
 }

@@ -2,8 +2,8 @@
 
 use catoptric_reference::{RenderOptions, Tracer, Truth};
 
-use crate::exit::{Outcome, bad_input};
-use crate::options::{Common, TruthArg};
+use crate::exit::Outcome;
+use crate::options::{Common, TruthArg, samples};
 use crate::run::load::{check_size, size};
 use crate::run::progress::Progress;
 
@@ -18,7 +18,7 @@ pub struct Args {
     #[arg(long, value_enum, default_value_t)]
     pub truth: TruthArg,
     /// Samples a pixel, a square number: a regular grid, averaged in colour only
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = samples)]
     pub samples: u32,
 }
 
@@ -27,15 +27,8 @@ const LONGEST_SIDE: u32 = 16_384;
 
 /// Ray-traces a scene into a file.
 pub fn run(args: &Args, common: &Common) -> anyhow::Result<Outcome> {
-    let (name, samples) = (&args.scene, args.samples);
+    let name = &args.scene;
     let path = target(common)?;
-    let side = samples.isqrt();
-    if side * side != samples {
-        return Err(bad_input(format!(
-            "--samples {samples} is no regular grid in a pixel: give a square number, such as {}",
-            (side + 1) * (side + 1)
-        )));
-    }
     let scene = open(name, common)?;
     let size = size(&scene);
     check_size(size, LONGEST_SIDE, "the reference")?;
@@ -52,7 +45,7 @@ pub fn run(args: &Args, common: &Common) -> anyhow::Result<Outcome> {
     let frame = tracer.render(&RenderOptions {
         size,
         truth,
-        samples: side,
+        samples: args.samples.isqrt(),
         progress: Some(&step),
     });
     progress.finish();

@@ -5,6 +5,7 @@ use crate::options::Common;
 use crate::record::Status;
 use crate::run::load::{check_size, open_gpu, parse, size};
 use crate::run::render::render;
+use crate::terminal::say;
 
 use super::picture::{open, target, write};
 
@@ -32,7 +33,7 @@ pub fn run(args: &Args, common: &Common) -> anyhow::Result<Outcome> {
             "{spec} does not apply to {name}: {reason}"
         ))),
         Err((_, reason)) => {
-            eprintln!("catoptric: {spec} on {name}: {reason}");
+            say(&format!("catoptric: {spec} on {name}: {reason}"));
             Ok(Outcome::FellShort)
         }
     }

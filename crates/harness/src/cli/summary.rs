@@ -3,11 +3,11 @@
 
 use std::path::PathBuf;
 
-use anyhow::Context;
 use catoptric_frame::write_whole;
 use serde_json::Value;
 
 use crate::exit::{Outcome, bad_input};
+use crate::input;
 use crate::options::{Common, Format};
 use crate::output::check_writable;
 use crate::record;
@@ -32,18 +32,22 @@ const END: &str = "<!-- summary: end -->";
 /// Prints the summary of a record, or splices it into a text between its markers.
 pub fn run(args: &Args, common: &Common) -> anyhow::Result<Outcome> {
     let path = &args.record;
+    if args.into.is_some() && (common.output.is_some() || common.format != Format::Table) {
+        return Err(bad_input(
+            "--into splices Markdown into a text: it goes without -o and --format",
+        ));
+    }
     let rows = record::read(path)?;
     let Some(into) = &args.into else {
-        let text = match common.format {
+        let text = match print::format(common) {
             Format::Table | Format::Markdown => markdown(&rows, path),
             Format::Csv => table(&rows, Format::Csv),
-            Format::Json => return print::json(&Value::Array(rows)).map(|()| Outcome::Done),
+            Format::Json => format!("{:#}\n", Value::Array(rows)),
         };
-        return print::text(&text).map(|()| Outcome::Done);
+        return print::result(&text, common).map(|()| Outcome::Done);
     };
     check_writable(into)?;
-    let text = std::fs::read_to_string(into);
-    let text = text.with_context(|| format!("cannot read {}", into.display()))?;
+    let text = input::text(into)?;
     let spliced = splice(&text, &markdown(&rows, path)).ok_or_else(|| {
         let file = into.display();
         bad_input(format!(

@@ -2,19 +2,24 @@
 
 use std::path::Path;
 
-use anyhow::Context;
 use serde_json::Value;
 
 use crate::exit::bad_input;
+use crate::input;
 
 use super::row::{Record, SCHEMA_VERSION};
 use super::schema;
 
-/// Replaces the file at `path` by all rows with their raw samples: it is there whole or not at all.
-pub fn write(rows: &[Record], path: &Path) -> anyhow::Result<()> {
+/// All rows with their raw samples, as a file has them.
+pub fn text(rows: &[Record]) -> anyhow::Result<Vec<u8>> {
     let mut text = serde_json::to_vec_pretty(rows)?;
     text.push(b'\n');
-    Ok(catoptric_frame::write_whole(path, &text)?)
+    Ok(text)
+}
+
+/// Replaces the file at `path` by all rows with their raw samples: it is there whole or not at all.
+pub fn write(rows: &[Record], path: &Path) -> anyhow::Result<()> {
+    Ok(catoptric_frame::write_whole(path, &text(rows)?)?)
 }
 
 /// What earlier rows must have, so that a record stays readable when fields are added to it.
@@ -30,13 +35,11 @@ fn earlier() -> Value {
 
 /// Reads earlier rows, to be compared with.
 pub fn read(path: &Path) -> anyhow::Result<Vec<Value>> {
-    let text =
-        std::fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))?;
-    let value: Value = serde_json::from_str(&text)
-        .map_err(|error| bad_input(format!("{}: {error}", path.display())))?;
+    let value = input::json(path)?;
     if let Some(violation) = schema::violations(&earlier(), &value).first() {
         return Err(bad_input(format!(
-            "{}: not a record: {violation}",
+            "{}: not a record: {violation}; a record is what `compare -o FILE.json` writes, or \
+             `record.json` beside a page",
             path.display()
         )));
     }

@@ -15,7 +15,7 @@ pub mod technique;
 #[cfg(test)]
 pub(crate) mod tests;
 
-pub use file::{read, write};
+pub use file::{read, text, write};
 pub use row::{
     Adapter, AgainstFull, Meta, Raw, Record, SCHEMA_VERSION, Status, Steadiness, Times, Wall,
 };

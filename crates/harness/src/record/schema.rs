@@ -4,6 +4,8 @@
 use schemars::generate::SchemaSettings;
 use serde_json::{Value, json};
 
+use crate::input::brief;
+
 use super::metrics;
 use super::row::Record;
 
@@ -169,17 +171,6 @@ fn check(schema: &Value, value: &Value, path: &str, found: &mut Vec<String>) {
                 (None, additional) => check(additional, member, &inner, found),
             }
         }
-    }
-}
-
-/// A value for messages: itself where it is short, else what it is.
-pub fn brief(value: &Value) -> String {
-    const LONGEST: usize = 40;
-    match value {
-        Value::Object(_) => "an object".to_owned(),
-        Value::Array(_) => "an array".to_owned(),
-        Value::String(text) if text.chars().count() > LONGEST => "a long text".to_owned(),
-        value => value.to_string(),
     }
 }
 

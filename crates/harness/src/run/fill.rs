@@ -33,6 +33,7 @@ pub fn record(
             .notes
             .push("no mirror pixel is in view: nothing to compare".to_owned());
     }
+    row.meta.notes.extend(non_finite.reason());
     row.coverage = Some(coverage);
     row.object_agreement = object_agreement;
     row.mismatch = mismatch;

@@ -5,6 +5,8 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use crate::terminal::{in_a_line, say};
+
 /// What is said while working: a bar where stderr is a terminal, and remarks unless quiet.
 #[derive(Clone, Debug)]
 pub struct Progress {
@@ -35,7 +37,7 @@ impl Progress {
 
     /// Says what is being done now.
     pub fn doing(&self, what: impl Into<String>) {
-        self.bar.set_message(what.into());
+        self.bar.set_message(in_a_line(&what.into()).into_owned());
     }
 
     /// One step is finished.
@@ -59,7 +61,7 @@ impl Progress {
     /// A remark that outlives the bar.
     pub fn remark(&self, text: &str) {
         if !self.quiet {
-            self.bar.suspend(|| eprintln!("{text}"));
+            self.bar.suspend(|| say(text));
         }
     }
 

@@ -1,5 +1,6 @@
 //! Where numbers come from: command line, source revision, date.
 
+use std::ffi::OsString;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use crate::record::Meta;
@@ -7,7 +8,7 @@ use crate::record::Meta;
 /// Provenance of this run, before a scene is known.
 pub fn meta(bounces: u32) -> Meta {
     Meta {
-        command: command_line(std::env::args()),
+        command: command_line(std::env::args_os()),
         revision: revision(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
         date: date(SystemTime::now()),
@@ -19,9 +20,11 @@ pub fn meta(bounces: u32) -> Meta {
     }
 }
 
-/// The command line as one would type it; the program by its name alone.
-fn command_line(args: impl Iterator<Item = String>) -> String {
+/// The command line as one would type it; the program by its name alone. What is not Unicode in it is
+/// shown as `�`.
+fn command_line(args: impl Iterator<Item = OsString>) -> String {
     let quoted = args.skip(1).map(|arg| {
+        let arg = arg.to_string_lossy().into_owned();
         let plain = |c: char| c.is_ascii_alphanumeric() || "-_./,=:+%@".contains(c);
         if !arg.is_empty() && arg.chars().all(plain) {
             arg
@@ -95,7 +98,7 @@ mod tests {
             "linear(residual=cross)",
             "it's",
         ];
-        let line = command_line(args.map(str::to_owned).into_iter());
+        let line = command_line(args.map(OsString::from).into_iter());
         assert_eq!(
             line,
             r"catoptric compare x -t 'linear(residual=cross)' 'it'\''s'"

@@ -1,10 +1,7 @@
 //! The report's page: the record and the names of its pictures in, `index.html` out.
 
-use std::path::{Path, PathBuf};
-
 use anyhow::Context;
 use askama::Template;
-use catoptric_frame::write_whole;
 
 use crate::record::Record;
 
@@ -40,15 +37,10 @@ struct Hero<'r> {
     technique: &'r views::Technique,
 }
 
-/// Writes `index.html` into the report's folder. Of `wanted` rows some may not be measured yet.
-pub fn write(rows: &[Record], wanted: usize, folder: &Path) -> anyhow::Result<PathBuf> {
-    let path = folder.join("index.html");
-    write_whole(&path, render(rows, wanted)?.as_bytes())?;
-    Ok(path)
-}
-
-/// The page as text.
-fn render(rows: &[Record], wanted: usize) -> anyhow::Result<String> {
+/// The page as text. Of `wanted` rows some may not be measured yet: then it says so, and draws no
+/// conclusion from the others.
+pub fn render(rows: &[Record], wanted: usize) -> anyhow::Result<String> {
+    let finished = rows.len() >= wanted;
     let techniques = views::techniques(rows);
     let scenes = views::scenes(rows, &techniques)?;
     let hero = scenes.iter().find_map(|scene| {
@@ -58,9 +50,12 @@ fn render(rows: &[Record], wanted: usize) -> anyhow::Result<String> {
         })
     });
     let page = Page {
-        unfinished: (rows.len() < wanted).then(|| format!("{} of {wanted}", rows.len())),
-        lead: words::lead(rows, &techniques),
-        noise_floor: words::noise_floor(rows),
+        unfinished: (!finished).then(|| format!("{} of {wanted}", rows.len())),
+        lead: match finished {
+            true => words::lead(rows, &techniques),
+            false => Vec::new(),
+        },
+        noise_floor: words::noise_floor(rows).filter(|_| finished),
         hero,
         headings: views::headings(),
         summary: views::summary(rows, &techniques),
@@ -94,7 +89,10 @@ mod tests {
         ];
         let html = render(&rows, 2).unwrap();
         assert!(!html.contains("Not finished"));
-        assert!(render(&rows, 5).unwrap().contains("2 of 5 measurements"));
+        let part = render(&rows, 5).unwrap();
+        assert!(part.contains("2 of 5 measurements"));
+        let claim = "shows the right object on";
+        assert!(html.contains(claim) && !part.contains("<b>linear(residual=cross)</b> shows"));
         for text in [
             "98.1 %",
             "no such model",

@@ -9,12 +9,15 @@ use serde_json::Value;
 use crate::options::{Common, Format};
 use crate::output::check_writable;
 use crate::record::path::leaves;
+use crate::terminal::plain;
 
 use super::table::{Table, cell};
 
-/// Writes text to stdout; a reader that has gone away is no error.
+/// Writes text to stdout, where it cannot command a terminal; a reader that has gone away is no error.
 pub fn text(text: &str) -> anyhow::Result<()> {
-    match std::io::stdout().lock().write_all(text.as_bytes()) {
+    let mut stdout = std::io::stdout().lock();
+    let written = stdout.write_all(plain(text).as_bytes());
+    match written.and_then(|()| stdout.flush()) {
         Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
         result => result.context("cannot write to stdout"),
     }

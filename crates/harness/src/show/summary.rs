@@ -8,7 +8,7 @@ use crate::options::Format;
 use crate::record::path::lookup;
 
 use super::records;
-use super::table::cell;
+use super::table::{cell, markdown as escaped, markdown_code};
 
 /// Columns of the table: those that fit on a page.
 const COLUMNS: [&str; 7] = [
@@ -36,16 +36,34 @@ pub fn markdown(rows: &[Value], path: &Path) -> String {
         ""
     };
     format!(
-        "Recorded {} at revision {} on {}{note} by\n`{}`:\n\n{}",
-        first("meta.date").split('T').next().unwrap_or_default(),
-        first("meta.revision"),
-        first("adapter.name"),
-        first("meta.command"),
+        "Recorded {} at revision {} on {}{note} by\n{}:\n\n{}",
+        escaped(first("meta.date").split('T').next().unwrap_or_default()),
+        escaped(&first("meta.revision")),
+        escaped(&first("adapter.name")),
+        markdown_code(&first("meta.command")),
         table(rows, Format::Markdown),
     ) + &format!(
         "\nEverything measured is in [record.json]({}).\n",
-        path.display()
+        link(path)
     )
+}
+
+/// A file's path as the target of a link.
+fn link(path: &Path) -> String {
+    let path = path.to_string_lossy();
+    let plain = |c: char| !c.is_whitespace() && !c.is_control() && !"()<>\\\"".contains(c);
+    let mut target = String::new();
+    for c in path.chars() {
+        if plain(c) {
+            target.push(c);
+        } else {
+            let mut bytes = [0; 4];
+            for byte in c.encode_utf8(&mut bytes).bytes() {
+                target += &format!("%{byte:02X}");
+            }
+        }
+    }
+    target
 }
 
 /// The table alone.
@@ -74,5 +92,6 @@ mod tests {
             assert!(text.contains(part), "{part}: {text}");
         }
         assert!(!text.contains("remark"), "{text}");
+        assert_eq!(link(Path::new("a b(1).json")), "a%20b%281%29.json");
     }
 }

@@ -4,6 +4,8 @@ use serde_json::{Map, Value};
 
 use crate::options::Format;
 
+use crate::terminal::in_a_line;
+
 use super::number::significant;
 
 /// A heading and rows of equally many cells.
@@ -60,10 +62,20 @@ impl Table {
             .collect()
     }
 
+    /// The same table with other texts in its cells.
+    fn with_cells(&self, change: impl Fn(&str) -> String) -> Self {
+        let changed = |line: &Vec<String>| line.iter().map(|cell| change(cell)).collect();
+        Self {
+            heading: changed(&self.heading),
+            rows: self.rows.iter().map(changed).collect(),
+        }
+    }
+
     fn aligned(&self) -> String {
-        let (widths, numeric) = (self.widths(), self.numeric());
+        let table = self.with_cells(|cell| in_a_line(cell).into_owned());
+        let (widths, numeric) = (table.widths(), table.numeric());
         let mut text = String::new();
-        for line in std::iter::once(&self.heading).chain(&self.rows) {
+        for line in std::iter::once(&table.heading).chain(&table.rows) {
             let cells: Vec<String> = line
                 .iter()
                 .enumerate()
@@ -99,7 +111,8 @@ impl Table {
     }
 
     fn markdown(&self) -> String {
-        let (widths, numeric) = (self.widths(), self.numeric());
+        let table = self.with_cells(markdown);
+        let (widths, numeric) = (table.widths(), table.numeric());
         let mut text = String::new();
         let mut line = |cells: &[String]| {
             text.push_str("| ");
@@ -107,13 +120,12 @@ impl Table {
             text.push_str(" |\n");
         };
         let padded = |cells: &[String]| -> Vec<String> {
-            let escaped = cells.iter().map(|cell| cell.replace('|', "\\|"));
-            escaped
-                .enumerate()
-                .map(|(column, cell)| pad(&cell, widths[column], numeric[column]))
+            let cells = cells.iter().enumerate();
+            cells
+                .map(|(column, cell)| pad(cell, widths[column], numeric[column]))
                 .collect()
         };
-        line(&padded(&self.heading));
+        line(&padded(&table.heading));
         let rule = widths.iter().zip(&numeric).map(|(width, numeric)| {
             let dashes = "-".repeat(width.saturating_sub(usize::from(*numeric)).max(2));
             if *numeric {
@@ -123,10 +135,35 @@ impl Table {
             }
         });
         line(&rule.collect::<Vec<_>>());
-        for row in &self.rows {
+        for row in &table.rows {
             line(&padded(row));
         }
         text
+    }
+}
+
+/// Text as it may stand in Markdown, in a cell or a sentence: it shows itself and nothing else.
+pub fn markdown(text: &str) -> String {
+    let mut shown = String::new();
+    for c in in_a_line(text).chars() {
+        match c {
+            '<' => shown += "&lt;",
+            '&' => shown += "&amp;",
+            '\\' | '|' | '`' | '*' | '[' | ']' => shown.extend(['\\', c]),
+            c => shown.push(c),
+        }
+    }
+    shown
+}
+
+/// Text as code in Markdown: between more backticks than follow each other in it.
+pub fn markdown_code(text: &str) -> String {
+    let text = in_a_line(text);
+    let longest = text.split(|c| c != '`').map(str::len).max().unwrap_or(0);
+    let fence = "`".repeat(longest + 1);
+    match longest {
+        0 => format!("{fence}{text}{fence}"),
+        _ => format!("{fence} {text} {fence}"),
     }
 }
 
@@ -141,7 +178,7 @@ fn pad(cell: &str, width: usize, right: bool) -> String {
 fn csv_cell(cell: &str) -> String {
     if cell == "–" {
         String::new()
-    } else if cell.contains([',', '"', '\n']) {
+    } else if cell.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", cell.replace('"', "\"\""))
     } else {
         cell.to_owned()
@@ -204,6 +241,27 @@ mod tests {
             table().write(Format::Csv),
             "name,px\n\"linear(a=1,b=2)\",0.38\nx|y,\n"
         );
+    }
+
+    #[test]
+    fn names_are_shown_as_they_are_and_do_nothing() {
+        let mut table = Table::new(["name", "px"]);
+        table.row(["a\nb\u{1b}[31m,\"c\"", "1"]);
+        table.row(["<img> `x` *y* [z](u)\\|", "22"]);
+        let text = table.write(Format::Table);
+        assert!(text.contains("a\\u000ab\\u001b[31m,\"c\"    "), "{text}");
+        assert_eq!(text.lines().count(), 3);
+        let text = table.write(Format::Markdown);
+        assert!(
+            text.contains(r"| &lt;img> \`x\` \*y\* \[z\](u)\\\| | 22 |"),
+            "{text}"
+        );
+        let lengths: Vec<usize> = text.lines().map(|line| line.chars().count()).collect();
+        assert_eq!(lengths, [lengths[0]; 4], "{text}");
+        let text = table.write(Format::Csv);
+        assert!(text.contains("\"a\nb\u{1b}[31m,\"\"c\"\"\",1\n"), "{text}");
+        assert_eq!(markdown_code("a`b"), "`` a`b ``");
+        assert_eq!(markdown_code("a b"), "`a b`");
     }
 
     #[test]

@@ -1,7 +1,5 @@
-//! A suite's page: figures, records and the names of pictures in; `index.html`, a plot and a
-//! table a figure out.
-
-use std::path::{Path, PathBuf};
+//! A suite's page: figures, records and the names of pictures in; the page, a plot and a table a
+//! figure out.
 
 use anyhow::Context;
 use askama::Template;
@@ -9,6 +7,7 @@ use catoptric_frame::write_whole;
 use serde_json::Value;
 
 use crate::options::Format;
+use crate::output::{Draft, FIGURES};
 use crate::record::{Record, Status};
 use crate::show::number::{or_dash, short, significant};
 use crate::show::plot::{Axis, Curve, Mark, Plot, Scale, TALL};
@@ -19,13 +18,12 @@ use crate::suites::results::Results;
 use super::figure::{Figure, Quantity, Quote};
 use super::suite::{Picture, Suite};
 
-/// Folder of the plots and tables, inside the page's.
-const FOLDER: &str = "figures";
-
 #[derive(Template)]
 #[template(path = "bench.html")]
 struct Page<'p> {
     suite: &'p Suite,
+    /// How many measurements of how many, where something is missing.
+    unfinished: Option<String>,
     figures: Vec<Shown<'p>>,
     blanks: Vec<String>,
     angle_labels: &'static [&'static str],
@@ -43,20 +41,37 @@ struct Shown<'p> {
     figure: &'p Figure,
     /// The size of the measured pictures, where all have one that is not their scene's.
     measured_at: Option<String>,
+    /// How many points of how many, where some are not measured: then nothing is concluded.
+    open: Option<String>,
     analysis: Vec<String>,
     plots: Vec<Diagram>,
     quotes: Vec<Quotation<'p>>,
     table: Table,
-    csv: String,
+    /// Its file; `None` on a page without files.
+    csv: Option<String>,
     rows: Vec<PictureRow<'p>>,
     own: Vec<&'p Picture>,
 }
 
-/// A plot, and the file it is in.
+/// A plot, and the file it is in; `None` on a page without files.
 struct Diagram {
     title: String,
     svg: String,
-    path: String,
+    path: Option<String>,
+}
+
+/// What a page is about.
+pub struct Content<'p> {
+    /// Title and question.
+    pub suite: &'p Suite,
+    /// In the order of the page.
+    pub figures: &'p [Figure],
+    /// What is measured so far.
+    pub rows: &'p [Record],
+    /// How many rows were asked for.
+    pub wanted: usize,
+    /// Pictures of the suite's own kind; `None` as long as they are not made.
+    pub own: Option<&'p [Picture]>,
 }
 
 /// A paper's number beside ours.
@@ -71,38 +86,24 @@ struct PictureRow<'p> {
     names: pictures::Names,
 }
 
-/// Writes `index.html` and the folder of plots and tables.
-pub fn write(
-    suite: &Suite,
-    figures: &[Figure],
-    rows: &[Record],
-    own: &[Picture],
-    folder: &Path,
-) -> anyhow::Result<PathBuf> {
+/// The page as text. With `files`, plots and tables are written there too, and the page leads to them.
+/// Where rows or pictures are missing, the page says so, and draws no conclusion from the others.
+pub fn render(content: &Content<'_>, files: Option<&Draft>) -> anyhow::Result<String> {
+    let rows = content.rows;
     let values: Vec<(Record, Value)> = rows
         .iter()
         .map(|row| (row.clone(), row.to_value()))
         .collect();
-    let files = folder.join(FOLDER);
-    std::fs::create_dir_all(&files).with_context(|| format!("cannot make {}", files.display()))?;
-    let shown = figures
+    let shown = content
+        .figures
         .iter()
-        .map(|figure| show(figure, &values, own))
+        .map(|figure| show(content, figure, &values, files))
         .collect::<anyhow::Result<Vec<_>>>()?;
-    for figure in &shown {
-        let table = figure.table.write(Format::Csv);
-        write_whole(folder.join(&figure.csv), table.as_bytes())?;
-    }
-    for (figure, shown) in figures.iter().zip(&shown) {
-        let plots = plots(figure, &Results::new(&figure.series, &values));
-        for (plot, diagram) in plots.iter().zip(&shown.plots) {
-            let file = plot.file().unwrap_or_default();
-            write_whole(folder.join(&diagram.path), file.as_bytes())?;
-        }
-    }
+    let finished = content.finished();
     let blanks = rows.iter().filter(|row| row.status != Status::Ok);
     let page = Page {
-        suite,
+        suite: content.suite,
+        unfinished: (!finished).then(|| format!("{} of {}", rows.len(), content.wanted)),
         figures: shown,
         blanks: blanks
             .map(|row| {
@@ -113,33 +114,51 @@ pub fn write(
         angle_labels: &pictures::ANGLE_LABELS,
         scale: pictures::SCALE,
         coverage: facts::coverage_legend(),
-        noise_floor: words::noise_floor(rows),
+        noise_floor: words::noise_floor(rows).filter(|_| finished),
         software: facts::software(rows),
         environment: facts::environment(rows),
         command: facts::command(rows),
         measured: rows.len(),
     };
-    let path = folder.join("index.html");
-    let html = page.render().context("filling the page's template")?;
-    write_whole(&path, html.as_bytes())?;
-    Ok(path)
+    page.render().context("filling the page's template")
+}
+
+impl Content<'_> {
+    fn finished(&self) -> bool {
+        self.rows.len() >= self.wanted && self.own.is_some()
+    }
 }
 
 fn show<'p>(
+    content: &'p Content<'_>,
     figure: &'p Figure,
     values: &'p [(Record, Value)],
-    own: &'p [Picture],
+    files: Option<&Draft>,
 ) -> anyhow::Result<Shown<'p>> {
     let results = Results::new(&figure.series, values);
     let mut diagrams = Vec::new();
-    for (plot, quantity) in plots(figure, &results).iter().zip(&figure.quantities) {
+    for quantity in &figure.quantities {
+        let plot = plot(figure, quantity, &results);
         let Some(svg) = plot.inline() else { continue };
-        let name = pictures::slug(quantity.path);
+        let path = format!(
+            "{FIGURES}/{}.{}.svg",
+            figure.anchor,
+            pictures::slug(quantity.path)
+        );
+        if let (Some(draft), Some(file)) = (files, plot.file()) {
+            write_whole(draft.file(&path)?, file.as_bytes())?;
+        }
         diagrams.push(Diagram {
-            title: plot.title.clone(),
+            title: plot.title,
             svg,
-            path: format!("{FOLDER}/{}.{name}.svg", figure.anchor),
+            path: files.map(|_| path),
         });
+    }
+    let table = table(figure, &results);
+    let csv = format!("{FIGURES}/{}.csv", figure.anchor);
+    if let Some(draft) = files {
+        let text = table.write(Format::Csv);
+        write_whole(draft.file(&csv)?, text.as_bytes())?;
     }
     let quotes = figure.quotes.iter().map(|quote| Quotation {
         quote,
@@ -151,19 +170,27 @@ fn show<'p>(
             )
         }),
     });
-    let points = figure.series.iter().flat_map(|series| &series.points);
-    let pictured = points.filter(|point| point.picture);
+    let points = || figure.series.iter().flat_map(|series| &series.points);
+    let measured = points().filter(|point| results.row(point).is_some());
+    let (measured, all) = (measured.count(), points().count());
+    let open = measured < all && content.rows.len() < content.wanted;
+    let pictured = points().filter(|point| point.picture);
     let rows = pictured.filter_map(|point| results.row(point));
     let rows = rows.filter(|row| row.status == Status::Ok);
+    let own = content.own.unwrap_or_default().iter();
     let size = figure.resolution();
     Ok(Shown {
         figure,
         measured_at: size.map(|[width, height]| format!("{width} × {height}")),
-        analysis: (figure.analysis)(&results),
+        open: open.then(|| format!("{measured} of {all}")),
+        analysis: match open {
+            true => Vec::new(),
+            false => (figure.analysis)(&results),
+        },
         plots: diagrams,
         quotes: quotes.collect(),
-        table: table(figure, &results),
-        csv: format!("{FOLDER}/{}.csv", figure.anchor),
+        table,
+        csv: files.map(|_| csv),
         rows: rows
             .map(|row| PictureRow {
                 row,
@@ -171,43 +198,39 @@ fn show<'p>(
             })
             .collect(),
         own: own
-            .iter()
             .filter(|picture| picture.figure == figure.anchor)
             .collect(),
     })
 }
 
-/// The figure's plots that have something to show.
-fn plots(figure: &Figure, results: &Results<'_>) -> Vec<Plot> {
-    let plot = |quantity: &Quantity| {
-        let series = figure.series.iter().map(|series| {
-            let marks = series.points.iter().filter_map(|point| {
-                let y = results.value(point, quantity.path)?;
-                Some(Mark {
-                    x: results.place(point)?,
-                    y,
-                    name: String::new(),
-                    label: format!("{}, {}: {}", series.label, point.scene, significant(y)),
-                })
-            });
-            Curve {
-                label: series.label.clone(),
-                points: marks.collect(),
-            }
+/// A quantity of a figure against its axis.
+fn plot(figure: &Figure, quantity: &Quantity, results: &Results<'_>) -> Plot {
+    let series = figure.series.iter().map(|series| {
+        let marks = series.points.iter().filter_map(|point| {
+            let y = results.value(point, quantity.path)?;
+            Some(Mark {
+                x: results.place(point)?,
+                y,
+                name: String::new(),
+                label: format!("{}, {}: {}", series.label, point.scene, significant(y)),
+            })
         });
-        Plot {
-            title: format!("{} against {}", quantity.label(), figure.axis.label),
-            x: figure.axis.clone(),
-            y: Axis {
-                label: quantity.label(),
-                scale: quantity.scale.clone(),
-            },
-            series: series.chain(guide(figure, quantity, results)).collect(),
-            height: TALL,
-            joined: !matches!(figure.axis.scale, Scale::Names(_)),
+        Curve {
+            label: series.label.clone(),
+            points: marks.collect(),
         }
-    };
-    figure.quantities.iter().map(plot).collect()
+    });
+    Plot {
+        title: format!("{} against {}", quantity.label(), figure.axis.label),
+        x: figure.axis.clone(),
+        y: Axis {
+            label: quantity.label(),
+            scale: quantity.scale.clone(),
+        },
+        series: series.chain(guide(figure, quantity, results)).collect(),
+        height: TALL,
+        joined: !matches!(figure.axis.scale, Scale::Names(_)),
+    }
 }
 
 /// The guide of a quantity at every place where a point has it.

@@ -1,13 +1,12 @@
 //! The pictures of measured rows, written into the page's folder.
 
-use std::path::Path;
-
-use anyhow::{Context, anyhow};
+use anyhow::anyhow;
 use catoptric_frame::{Image, write_png, write_png_rgb8};
 use catoptric_reflect::Gpu;
 use catoptric_scene::Scene;
 use glam::Vec3;
 
+use crate::output::Draft;
 use crate::record::Record;
 use crate::run::Measured;
 use crate::run::load::parse;
@@ -17,29 +16,25 @@ use crate::show::pictures;
 /// Writes the pictures of those rows of one scene that are to be shown.
 pub fn write(
     measured: &Measured<'_, '_>,
-    folder: &Path,
+    draft: &Draft,
     shown: impl Fn(&Record) -> bool,
 ) -> anyhow::Result<()> {
-    let at = |name: &str| folder.join(name);
     let rows = measured.rendered.iter().zip(measured.rows);
     for (rendered, row) in rows.filter(|(_, row)| shown(row)) {
         let Ok(rendered) = rendered else { continue };
         let names = pictures::names(row);
-        if let Some(parent) = at(&names.reference).parent() {
-            std::fs::create_dir_all(parent)
-                .with_context(|| format!("cannot make {}", parent.display()))?;
-        }
-        write_png(&measured.truth.first.color, at(&names.reference))?;
-        write_png(&measured.truth.full.color, at(&names.full))?;
-        write_png_rgb8(&pictures::angle_scale(), at(pictures::SCALE))?;
-        let frame = &rendered.output.frame;
-        write_png(&frame.color, at(&names.technique))?;
-        let truth = &measured.truth.first;
-        write_png_rgb8(&pictures::angle_map(truth, frame)?, at(&names.angle))?;
-        write_png_rgb8(&pictures::coverage_map(truth, frame)?, at(&names.coverage))?;
+        let (truth, frame) = (&measured.truth.first, &rendered.output.frame);
+        write_png(&truth.color, draft.file(&names.reference)?)?;
+        write_png(&measured.truth.full.color, draft.file(&names.full)?)?;
+        write_png_rgb8(&pictures::angle_scale(), draft.file(pictures::SCALE)?)?;
+        write_png(&frame.color, draft.file(&names.technique)?)?;
+        let angle = pictures::angle_map(truth, frame)?;
+        write_png_rgb8(&angle, draft.file(&names.angle)?)?;
+        let coverage = pictures::coverage_map(truth, frame)?;
+        write_png_rgb8(&coverage, draft.file(&names.coverage)?)?;
         if let Some(levels) = &names.levels {
             let geometry = geometry(measured.gpu, measured.scene, &row.technique, "levels")?;
-            write_png(&geometry, at(levels))?;
+            write_png(&geometry, draft.file(levels)?)?;
         }
     }
     Ok(())

@@ -1,21 +1,24 @@
 //! Runs a suite: measures what its figures name, and writes the page.
 //!
-//! Measuring writes `record.json` and the pictures into the folder after every scene; the page is
-//! made from these alone, so that the same record gives the same bytes.
+//! After every scene the page and `record.json` are made anew, together, so that whenever the program
+//! ends there is a page that says how far it is. The page is made from the record and the pictures
+//! alone: the same record gives the same bytes. Until the first scene is finished, the page that was
+//! there before stands.
 
 use std::path::{Path, PathBuf};
 
-use crate::exit::Outcome;
+use crate::exit::{Outcome, bad_input};
 use crate::options::{Common, Format};
-use crate::output::make_folder;
+use crate::output::{Draft, FIGURES, PICTURES};
 use crate::record::{self, Record, Status};
 use crate::run::interrupt::interrupted;
 use crate::run::load::load_options;
 use crate::run::{Setup, measure};
 use crate::show::{self, print, records};
+use crate::terminal::say;
 
-use super::figure::Figure;
-use super::suite::{Asked, Layout, Studio, Suite};
+use super::page::Content;
+use super::suite::{Asked, Layout, Picture, Studio, Suite};
 use super::{page, pictures, plan};
 
 /// Measures a suite and writes its page. `seconds` of timing go before the suite's own.
@@ -40,24 +43,67 @@ pub fn run(
     }
     let setup = Setup::new(&plan::wanted(&figures, suite.timing.or(seconds)), common)?;
     let folder = common.output.clone().unwrap_or_else(|| folder(suite));
-    make_folder(&folder)?;
+    refuse_file_name(&folder)?;
+    let parts = match suite.layout {
+        Layout::Scenes => &[PICTURES][..],
+        Layout::Figures => &[PICTURES, FIGURES],
+    };
+    let mut draft = Draft::begin(&folder, parts)?;
+    let wanted = setup.rows();
+    let figures = &figures[..];
 
     let rows = measure(&setup, |measured, rows| {
         if let Some(measured) = measured {
-            pictures::write(&measured, &folder, |row| plan::shown(&figures, row))?;
+            pictures::write(&measured, &draft, |row| plan::shown(figures, row))?;
         }
-        record::write(rows, &folder.join("record.json"))?;
-        match suite.layout {
-            Layout::Scenes => show::page::write(rows, setup.rows(), &folder).map(drop),
-            Layout::Figures => Ok(()),
-        }
+        let page = match suite.layout {
+            Layout::Scenes => show::page::render(rows, wanted)?,
+            Layout::Figures => {
+                let content = Content {
+                    suite,
+                    figures,
+                    rows,
+                    wanted,
+                    own: None,
+                };
+                page::render(&content, None)?
+            }
+        };
+        draft.put(&page, &record::text(rows)?).map(drop)
     })?;
-    let index = match suite.layout {
-        Layout::Scenes => show::page::write(&rows, setup.rows(), &folder)?,
-        Layout::Figures => by_figures(suite, &figures, &rows, scene, &setup, common, &folder)?,
-    };
-    print(suite, &rows, &index, common)?;
-    Ok(outcome(suite, &rows, setup.rows()))
+    if !rows.is_empty() || wanted == 0 {
+        let page = match suite.layout {
+            Layout::Scenes => show::page::render(&rows, wanted)?,
+            Layout::Figures => {
+                let own = own_pictures(suite, scene, &setup, common, &draft)?;
+                let content = Content {
+                    suite,
+                    figures,
+                    rows: &rows,
+                    wanted,
+                    own: own.as_deref(),
+                };
+                page::render(&content, Some(&draft))?
+            }
+        };
+        let index = draft.put(&page, &record::text(&rows)?)?;
+        print(suite, &rows, &index, common)?;
+    }
+    Ok(outcome(&rows, wanted))
+}
+
+/// Refuses a folder that is called as a file is: it was hardly meant.
+fn refuse_file_name(folder: &Path) -> anyhow::Result<()> {
+    let ending = folder.extension().and_then(|ending| ending.to_str());
+    let of_a_file = ["json", "csv", "md", "html", "png", "exr", "svg"];
+    if !folder.is_dir() && ending.is_some_and(|ending| of_a_file.contains(&ending)) {
+        return Err(bad_input(format!(
+            "-o {}: a folder is written here, with `index.html` and `record.json` in it: name one without \
+             the ending of a file",
+            folder.display()
+        )));
+    }
+    Ok(())
 }
 
 /// Where the page goes if nothing else is said.
@@ -68,25 +114,25 @@ fn folder(suite: &Suite) -> PathBuf {
     }
 }
 
-fn by_figures(
+/// The suite's own pictures; `None` where there was no time for them.
+fn own_pictures(
     suite: &Suite,
-    figures: &[Figure],
-    rows: &[Record],
     scene: Option<&str>,
     setup: &Setup,
     common: &Common,
-    folder: &Path,
-) -> anyhow::Result<PathBuf> {
-    let own = match suite.pictures {
-        Some(make) if !interrupted() => make(&Studio {
+    draft: &Draft,
+) -> anyhow::Result<Option<Vec<Picture>>> {
+    match suite.pictures {
+        None => Ok(Some(Vec::new())),
+        Some(_) if interrupted() => Ok(None),
+        Some(make) => make(&Studio {
             setup,
             scene,
             common,
-            folder,
-        })?,
-        _ => Vec::new(),
-    };
-    page::write(suite, figures, rows, &own, folder)
+            draft,
+        })
+        .map(Some),
+    }
 }
 
 /// Where the page is; of a suite of figures the records, if another format than the table is asked
@@ -99,24 +145,24 @@ fn print(suite: &Suite, rows: &[Record], index: &Path, common: &Common) -> anyho
     records::print(&values, common.format)
 }
 
-fn outcome(suite: &Suite, rows: &[Record], wanted: usize) -> Outcome {
-    let (page, said) = match suite.layout {
-        Layout::Scenes => ("report", "; the report says so"),
-        Layout::Figures => ("page", ""),
-    };
+fn outcome(rows: &[Record], wanted: usize) -> Outcome {
     let failed = rows.iter().filter(|row| row.status == Status::Failed);
     let failed = failed.count();
     if failed > 0 {
-        eprintln!(
-            "catoptric: {failed} of {} rows failed; the {page} says why",
+        say(&format!(
+            "catoptric: {failed} of {} rows failed; the page says why",
             rows.len()
-        );
+        ));
     }
     if rows.len() < wanted {
-        eprintln!(
-            "catoptric: interrupted after {} of {wanted} rows{said}",
+        let page = match rows.is_empty() {
+            true => "; no page was written",
+            false => "; the page says so",
+        };
+        say(&format!(
+            "catoptric: interrupted after {} of {wanted} rows{page}",
             rows.len()
-        );
+        ));
     }
     match failed == 0 && rows.len() == wanted {
         true => Outcome::Done,

@@ -1,10 +1,9 @@
 //! What a suite is.
 
-use std::path::Path;
-
 use catoptric_scene::LoadOptions;
 
 use crate::options::Common;
+use crate::output::Draft;
 use crate::run::Setup;
 
 use super::figure::Figure;
@@ -78,8 +77,8 @@ pub struct Studio<'s> {
     pub scene: Option<&'s str>,
     /// How scenes are to be loaded.
     pub common: &'s Common,
-    /// The folder of the page; pictures go into [`crate::output::PICTURES`] inside it.
-    pub folder: &'s Path,
+    /// The files of the page; pictures go into [`crate::output::PICTURES`].
+    pub draft: &'s Draft,
 }
 
 /// A picture of a suite's own kind, written already.

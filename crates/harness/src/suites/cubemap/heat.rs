@@ -43,7 +43,7 @@ pub fn pictures(studio: &Studio<'_>) -> anyhow::Result<Vec<Picture>> {
     let most = counts.max().copied().unwrap_or(0).max(1) as f32;
     let pictures = maps.iter().map(|(label, traced)| {
         let path = format!("{FOLDER}/{}.samples-{}.png", slug(&scene.name), slug(label));
-        let file = studio.folder.join(&path);
+        let file = studio.draft.file(&path)?;
         let pixels = traced.samples.pixels().iter().zip(traced.rays.pixels());
         let shares = pixels.map(|(samples, rays)| match rays {
             0 => f32::NAN,

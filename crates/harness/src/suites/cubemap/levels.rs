@@ -38,7 +38,7 @@ pub fn pictures(studio: &Studio<'_>) -> anyhow::Result<Vec<Picture>> {
     let picture = |(bound, which): (usize, &str)| {
         let map = arranged(&shown, bound);
         let path = format!("{FOLDER}/{}.levels-{which}.png", slug(&scene.name));
-        let file = studio.folder.join(&path);
+        let file = studio.draft.file(&path)?;
         write_png_rgb8(&colorize(&map, [0.0, farthest], Colormap::Magma), &file)
             .with_context(|| format!("cannot write {}", file.display()))?;
         Ok(Picture {

@@ -72,7 +72,7 @@ fn picture(
         (Some(true), Some(true)) => BOTH_WRONG,
     });
     let path = format!("{FOLDER}/{}.skipped-{}.png", slug(&scene.name), slug(label));
-    let file = studio.folder.join(&path);
+    let file = studio.draft.file(&path)?;
     write_png_rgb8(&Image::from_vec(size, colors.collect()), &file)
         .with_context(|| format!("cannot write {}", file.display()))?;
     Ok(Some(Picture {

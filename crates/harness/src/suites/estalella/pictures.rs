@@ -2,8 +2,7 @@
 
 use std::fmt::Write;
 
-use anyhow::Context;
-use catoptric_frame::{Image, VertexClass, write_png_rgb8};
+use catoptric_frame::{Image, VertexClass, write_png_rgb8, write_whole};
 use catoptric_reference::true_vertices;
 use catoptric_reflect::{CubemapStep, CubemapWalk};
 use catoptric_scene::{LoadOptions, Scene, Shape};
@@ -49,9 +48,9 @@ fn field(studio: &Studio<'_>) -> anyhow::Result<Picture> {
     walk.search(vertex, |step| steps.push(step));
 
     let path = format!("{FOLDER}/field.svg");
-    let file = studio.folder.join(&path);
+    let file = studio.draft.file(&path)?;
     let svg = draw_field(&walk, vertex, &steps)?;
-    std::fs::write(&file, svg).with_context(|| format!("cannot write {}", file.display()))?;
+    write_whole(&file, svg.as_bytes())?;
     Ok(Picture {
         figure: "iterations",
         path,
@@ -188,8 +187,8 @@ fn region(studio: &Studio<'_>, name: &str, what: &str) -> anyhow::Result<Picture
     });
     let image = Image::from_vec(REGION_PX, colors.collect());
     let path = format!("{FOLDER}/regions.{name}.png");
-    let file = studio.folder.join(&path);
-    write_png_rgb8(&image, &file).with_context(|| format!("cannot write {}", file.display()))?;
+    let file = studio.draft.file(&path)?;
+    write_png_rgb8(&image, &file)?;
     Ok(Picture {
         figure: "silhouette",
         path,

@@ -69,7 +69,7 @@ fn save(
     alt: String,
 ) -> anyhow::Result<Picture> {
     let path = format!("{FOLDER}/{}.{kind}.png", slug(&scene.name));
-    let file = studio.folder.join(&path);
+    let file = studio.draft.file(&path)?;
     write_png_rgb8(image, &file).with_context(|| format!("cannot write {}", file.display()))?;
     Ok(Picture {
         figure: "objects",

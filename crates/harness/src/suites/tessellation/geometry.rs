@@ -47,7 +47,7 @@ fn wireframe(
     let image = geometry(&studio.setup.gpu, &scene, technique, "wireframe")?;
     let names = [&scene.name, technique].map(slug);
     let path = format!("{FOLDER}/{}.wireframe.png", names.join("."));
-    let file = studio.folder.join(&path);
+    let file = studio.draft.file(&path)?;
     write_png(&image, &file).with_context(|| format!("cannot write {}", file.display()))?;
     Ok(Picture {
         figure,

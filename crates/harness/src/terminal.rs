@@ -1,0 +1,61 @@
+//! What people read: lines on stderr, and text that cannot command the terminal it is shown on.
+
+use std::borrow::Cow;
+use std::io::Write;
+
+/// Writes a line, or several, to stderr. Where nobody can read it, it is lost: no reason to end.
+pub fn say(text: &str) {
+    let _ = writeln!(std::io::stderr().lock(), "{}", plain(text));
+}
+
+/// Text as it may be shown: names come from files, and a terminal obeys control characters. Line
+/// breaks and tabs stay; any other is written as JSON does, `\u001b`, so that JSON stays JSON.
+pub fn plain(text: &str) -> Cow<'_, str> {
+    replaced(text, |c| commands(c) && c != '\n' && c != '\t')
+}
+
+/// [`plain`] text on one line.
+pub fn in_a_line(text: &str) -> Cow<'_, str> {
+    replaced(text, commands)
+}
+
+fn replaced(text: &str, odd: impl Fn(char) -> bool) -> Cow<'_, str> {
+    if !text.contains(&odd) {
+        return Cow::Borrowed(text);
+    }
+    let mut shown = String::new();
+    for c in text.chars() {
+        if odd(c) {
+            shown += &format!("\\u{:04x}", u32::from(c));
+        } else {
+            shown.push(c);
+        }
+    }
+    Cow::Owned(shown)
+}
+
+/// Whether a character does something else than to be shown: control characters, and those that
+/// turn the direction of what follows.
+fn commands(c: char) -> bool {
+    c.is_control()
+        || matches!(c, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_terminal_obeys_is_written_out() {
+        assert_eq!(plain("a\tb\nзеркало ½ °"), "a\tb\nзеркало ½ °");
+        assert_eq!(
+            plain("\u{1b}[31mred\u{7}\r"),
+            "\\u001b[31mred\\u0007\\u000d"
+        );
+        assert_eq!(plain("\u{9b}2J\u{202e}"), "\\u009b2J\\u202e");
+        assert_eq!(in_a_line("a\nb"), "a\\u000ab");
+        let json = plain("\"\u{9b}\"").into_owned();
+        let back: String = serde_json::from_str(&json).unwrap();
+        assert_eq!(back, "\u{9b}");
+    }
+}

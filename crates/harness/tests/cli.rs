@@ -423,8 +423,15 @@ fn a_mirror_outside_the_view_is_a_picture_without_one() {
         "json",
     ]));
     assert_eq!(facts["coverage"]["mirror_pixels"], 0);
+    // Colour is that of the whole pictures, and that is said.
     assert!(
-        facts["object_agreement"].is_null() && facts["color"].is_null(),
+        facts["object_agreement"].is_null() && facts["color"]["mae"] == 0.0,
+        "{facts}"
+    );
+    assert!(
+        facts["note"]
+            .as_str()
+            .is_some_and(|note| note.contains("no pixel reflects in both")),
         "{facts}"
     );
 }

@@ -18,6 +18,21 @@ use self::message::{found, in_a_line};
 use crate::SceneError;
 use crate::suggest::suggest;
 
+/// What stands elsewhere than at the root of a scene, or under another name, and its heading.
+const ELSEWHERE: [(&str, &str); 5] = [
+    ("move", "[[motion.move]], below [motion]"),
+    ("objects", "[[object]], once for each of them"),
+    ("mirrors", "[[mirror]], once for each of them"),
+    (
+        "transform",
+        "`transform = { … }` inside an [[object]] or a [[mirror]]",
+    ),
+    (
+        "repeat",
+        "`repeat = [{ … }]` inside an [[object]] or a [[mirror]]",
+    ),
+];
+
 /// Largest magnitude of a number in a scene, far inside the range of `f32`.
 const LARGEST: f64 = 1e9;
 /// Smallest length that counts as positive.
@@ -57,6 +72,12 @@ impl Source {
             message: in_a_line(&message.to_string()),
         }
     }
+}
+
+/// So many numbers, as an example in a message.
+fn example(count: usize) -> String {
+    let numbers = ["0.0", "1.0", "0.0", "1.0"];
+    format!("[{}]", numbers[..count.min(numbers.len())].join(", "))
 }
 
 /// Parses a whole TOML text.
@@ -279,16 +300,31 @@ impl<'d> Table<'d> {
         match value {
             DeValue::Array(array) if array.len() == N => {
                 let mut numbers = [0.0; N];
-                for (number, value) in numbers.iter_mut().zip(array.iter()) {
-                    *number = self.to_number(key, value.get_ref())?;
+                for (number, (value, place)) in numbers.iter_mut().zip(array.iter().zip(1..)) {
+                    let value = value.get_ref();
+                    if !matches!(value, DeValue::Integer(_) | DeValue::Float(_)) {
+                        let found = found(value);
+                        let message = format_args!(
+                            "must be an array of {N} numbers; number {place} of them is {found}"
+                        );
+                        return Err(self.error(key, message));
+                    }
+                    *number = self.to_number(key, value)?;
                 }
                 Ok(numbers)
             }
             DeValue::Array(array) => Err(self.error(
                 key,
-                format_args!("must be an array of {N} numbers, not of {}", array.len()),
+                format_args!(
+                    "must be an array of {N} numbers, such as {}, not of {}",
+                    example(N),
+                    array.len()
+                ),
             )),
-            other => Err(self.wrong_type(key, other, format_args!("an array of {N} numbers"))),
+            other => {
+                let wanted = format_args!("an array of {N} numbers, such as {}", example(N));
+                Err(self.wrong_type(key, other, wanted))
+            }
         }
     }
 
@@ -299,13 +335,25 @@ impl<'d> Table<'d> {
     ) -> Result<Option<Vec<[f64; N]>>, SceneError> {
         match self.get(key).map(Spanned::get_ref) {
             None => Ok(None),
-            Some(DeValue::Array(array)) => array
-                .iter()
-                .map(|row| self.to_numbers(key, row.get_ref()))
-                .collect::<Result<_, _>>()
-                .map(Some),
-            Some(other) => Err(self.wrong_type(key, other, "an array of arrays")),
+            Some(DeValue::Array(array)) => {
+                let row = |row: &Spanned<DeValue<'_>>| match row.get_ref() {
+                    row @ DeValue::Array(_) => self.to_numbers(key, row),
+                    other => Err(self.wrong_rows::<N>(key, other)),
+                };
+                array.iter().map(row).collect::<Result<_, _>>().map(Some)
+            }
+            Some(other) => Err(self.wrong_rows::<N>(key, other)),
         }
+    }
+
+    fn wrong_rows<const N: usize>(&self, key: &str, value: &DeValue<'_>) -> SceneError {
+        let row = example(N);
+        let message = format_args!(
+            "must be an array of arrays of {N} numbers each, such as [{row}]; {} is there in place of \
+             an array",
+            found(value)
+        );
+        self.error(key, message)
     }
 
     /// An array of arrays of `N` whole numbers within a range.
@@ -419,7 +467,7 @@ impl<'d> Table<'d> {
         let wanted = if prefix.contains('"') {
             "an array of tables".to_owned()
         } else {
-            format!("written as [[{prefix}{key}]]")
+            format!("written as [[{prefix}{key}]], with two brackets and once for each of them")
         };
         let elements = match self.get(key).map(Spanned::get_ref) {
             None => return Ok(Vec::new()),
@@ -446,7 +494,11 @@ impl<'d> Table<'d> {
     }
 
     fn unknown(&self, key: &str, offset: usize, known: &[&'static str]) -> SceneError {
-        let suggestion = suggest(key, known.iter().copied());
+        let elsewhere = ELSEWHERE.iter().find(|(other, _)| *other == key);
+        let suggestion = match elsewhere {
+            Some((_, heading)) if self.owner.is_empty() => format!(": it is written as {heading}"),
+            _ => suggest(key, known.iter().copied()),
+        };
         self.error_at(offset, format_args!("unknown key `{key}`{suggestion}"))
     }
 

@@ -45,9 +45,13 @@ pub fn open(name_or_path: &str, options: &LoadOptions) -> Result<Scene, SceneErr
             suggestion,
         });
     }
-    let text = std::fs::read_to_string(path).map_err(|error| SceneError::File {
+    let text = crate::text::read(path, "TOML")?;
+    let text = String::from_utf8(text).map_err(|error| SceneError::File {
         file: name_or_path.to_owned(),
-        message: format!("cannot be read: {error}"),
+        message: format!(
+            "is not UTF-8 text (byte {} is none of it): save it as UTF-8",
+            error.utf8_error().valid_up_to() + 1
+        ),
     })?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let folder = Some(path.parent().unwrap_or(Path::new("")).to_owned());

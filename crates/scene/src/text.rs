@@ -21,7 +21,9 @@ pub(crate) fn read(path: &Path, what: &str) -> Result<Vec<u8>, SceneError> {
         return Err(error("is UTF-16 text: save it as UTF-8".to_owned()));
     }
     if bytes.contains(&0) {
-        let message = format!("is binary (it has zero bytes), not the text of an {what} file");
+        let message = format!(
+            "is binary, or UTF-16 text (it has zero bytes): {what} text in UTF-8 is expected"
+        );
         return Err(error(message));
     }
     if bytes.starts_with(b"\xef\xbb\xbf") {

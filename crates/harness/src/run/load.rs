@@ -49,6 +49,11 @@ pub fn check_size(size: [u32; 2], limit: u32, whose: &str) -> anyhow::Result<()>
 
 /// A technique by its name.
 pub fn parse(text: &str) -> anyhow::Result<Spec> {
+    if refinements(text) > 1 {
+        return Err(bad_input(format!(
+            "technique `{text}`: a search goes with one refinement, such as `linear+full(level=3)`"
+        )));
+    }
     match catoptric_reflect::parse(text) {
         // These name what is wrong themselves.
         Err(error @ (SpecError::Technique { .. } | SpecError::Unavailable { .. })) => {
@@ -56,6 +61,21 @@ pub fn parse(text: &str) -> anyhow::Result<Spec> {
         }
         parsed => parsed.with_context(|| format!("technique `{text}`")),
     }
+}
+
+/// How many refinements a technique's name adds to its search.
+fn refinements(text: &str) -> usize {
+    let mut depth = 0;
+    let mut count = 0;
+    for c in text.chars() {
+        match c {
+            '(' => depth += 1,
+            ')' => depth -= 1,
+            '+' if depth == 0 => count += 1,
+            _ => {}
+        }
+    }
+    count
 }
 
 /// Opens the adapter asked for; without a wish, hardware first.

@@ -103,5 +103,12 @@ mod tests {
             line,
             r"catoptric compare x -t 'linear(residual=cross)' 'it'\''s'"
         );
+        #[cfg(unix)]
+        {
+            use std::os::unix::ffi::OsStringExt;
+            let odd = OsString::from_vec(b"n\xff/r.json".to_vec());
+            let line = command_line(["catoptric".into(), odd].into_iter());
+            assert_eq!(line, "catoptric 'n\u{fffd}/r.json'");
+        }
     }
 }

@@ -249,7 +249,7 @@ mod tests {
         table.row(["a\nb\u{1b}[31m,\"c\"", "1"]);
         table.row(["<img> `x` *y* [z](u)\\|", "22"]);
         let text = table.write(Format::Table);
-        assert!(text.contains("a\\u000ab\\u001b[31m,\"c\"    "), "{text}");
+        assert!(text.contains("a\\u000ab\\u001b[31m,\"c\" "), "{text}");
         assert_eq!(text.lines().count(), 3);
         let text = table.write(Format::Markdown);
         assert!(

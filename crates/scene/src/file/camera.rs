@@ -36,8 +36,27 @@ pub(super) fn camera(
         return Err(table.error("target", "is the same point as `eye`"));
     }
     if forward.normalize().cross(up).length() < 1e-6 {
-        let key = if table.has("up") { "up" } else { "target" };
-        return Err(table.error(key, "makes the viewing direction parallel to `up`"));
+        // An axis that is far from parallel to it.
+        let other = match forward.y.abs() > 0.7 * forward.length() {
+            true => "[0.0, 0.0, 1.0]",
+            false => "[0.0, 1.0, 0.0]",
+        };
+        return Err(match table.has("up") {
+            true => table.error(
+                "up",
+                format_args!(
+                    "is parallel to the viewing direction, from `eye` to `target`: give another \
+                     direction, such as {other}"
+                ),
+            ),
+            false => table.error(
+                "target",
+                format_args!(
+                    "lies straight above or below `eye`, so that no direction is up: add `up`, such \
+                     as up = {other}"
+                ),
+            ),
+        });
     }
     let resolution = match resolution {
         Some(size) if size.iter().any(|side| !(1..=LARGEST_IMAGE).contains(side)) => {

@@ -33,7 +33,10 @@ pub(super) fn mirror(table: &Table<'_>, origin: &Origin<'_>) -> Result<Mirror, S
         },
         (None, None) => {
             table.finish()?;
-            return Err(table.error_here("needs `shape` or `mesh`"));
+            return Err(table.error_here(format_args!(
+                "needs `shape = \"…\"` (one of {}) or `mesh = \"FILE.obj\"`",
+                EXACT.join(", ")
+            )));
         }
     };
     Ok(Mirror {

@@ -24,7 +24,7 @@ pub(super) fn motion(
     table.finish()?;
     let frames = table.required("frames", frames)?;
     if camera_table.is_none() && move_tables.is_empty() {
-        return Err(table.error_here("needs `camera` or [[motion.move]]"));
+        return Err(table.error_here("needs `camera` or [[motion.move]]: what moves"));
     }
 
     let path = match &camera_table {
@@ -137,7 +137,8 @@ fn check(motion: &Motion, camera: &Camera, mirrors: &[Mirror]) -> Result<(), Str
         }
         if forward.normalize().cross(now.up).length() < 1e-6 {
             return Err(format!(
-                "at frame {frame} the viewing direction is parallel to the camera's `up`"
+                "at frame {frame} the viewing direction is parallel to the camera's `up`: let the path \
+                 pass beside it, or give the camera another `up`"
             ));
         }
         for ((index, mirror), mesh) in closed.iter().zip(&meshes) {

@@ -62,7 +62,10 @@ pub(super) fn spec(table: &Table<'_>) -> Result<Spec, SceneError> {
     };
     table.finish()?;
     let Some(form) = form else {
-        return Err(table.error_here("needs `mesh` or `shape`"));
+        return Err(table.error_here(format_args!(
+            "needs `shape = \"…\"` (one of {}, points) or `mesh = \"FILE.obj\"`",
+            PRIMITIVES.join(", ")
+        )));
     };
 
     let mut paints = Vec::new();
@@ -118,6 +121,15 @@ fn points(table: &Table<'_>) -> Result<Form, SceneError> {
         (Some(positions), None) => Ok(Form::Points(
             positions.into_iter().map(DVec3::from_array).collect(),
         )),
+        (None, None) if seed.is_none() && t.is_none() && mirror.is_none() => {
+            // A key that nobody knows says more than those that are missing.
+            table.finish()?;
+            Err(table.error(
+                "shape",
+                "`points` needs `positions = [[x, y, z], …]`, or `count = N` for so many points that \
+                 a mirror reflects",
+            ))
+        }
         (None, count) => {
             let count = table.required("count", count)?;
             let distance = t.unwrap_or([0.05, 8.0]);

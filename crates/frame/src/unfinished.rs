@@ -76,6 +76,13 @@ impl List {
         self.end(&Unfinished::File(path.to_owned()));
     }
 
+    /// From now on a folder stays.
+    pub(crate) fn keep(&mut self, folder: &mut NewFolder) {
+        if let Some(unfinished) = folder.unfinished.take() {
+            self.end(&unfinished);
+        }
+    }
+
     fn end(&mut self, entry: &Unfinished) {
         self.0.retain(|listed| listed != entry);
     }
@@ -135,9 +142,7 @@ impl NewFolder {
 
     /// From now on it stays.
     pub fn keep(&mut self) {
-        if let Some(unfinished) = self.unfinished.take() {
-            list().end(&unfinished);
-        }
+        list().keep(self);
     }
 }
 

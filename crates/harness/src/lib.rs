@@ -5,6 +5,8 @@
 //!
 //! The rooms, from the bottom up; a room knows only those before it:
 //!
+//! - [`terminal`], [`exit`](mod@exit), [`options`], [`input`], [`output`]: what is said, how the program
+//!   ends, what it is asked, reads and writes;
 //! - [`record`]: what was measured, its file and its schema, what is asked of its numbers;
 //! - [`show`] makes tables, plots, sentences, pages and pictures of records and frames, and
 //!   [`run`] makes the records; neither knows the other;

@@ -174,7 +174,7 @@ fn a_pair_is_measured_once() {
 fn a_models_folder_is_there_or_not_named() {
     let list = |models: &[&str], variable: &str| {
         std::process::Command::new(env!("CARGO_BIN_EXE_catoptric"))
-            .args(["list", "techniques", "--format", "csv"])
+            .args(["list", "scenes", "--format", "csv"])
             .args(models)
             .env("CATOPTRIC_MODELS", variable)
             .output()

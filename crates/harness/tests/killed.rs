@@ -166,13 +166,13 @@ fn kills(verb: &[&str], times: u32) {
     is_clean(&folder);
 }
 
-/// Few scenes and figures, all of them built in.
-const BENCH: [&str; 2] = ["bench", "control"];
+/// One scene in two parts, and pictures.
+const SHORT: [&str; 4] = ["bench", "papers", "--scene", "sphere-square"];
 
 #[test]
 fn a_bench_killed_over_an_old_one_leaves_a_whole_page() {
     if gpu_or_skip() {
-        kills(&BENCH, 6);
+        kills(&SHORT, 6);
     }
 }
 
@@ -180,7 +180,7 @@ fn a_bench_killed_over_an_old_one_leaves_a_whole_page() {
 #[ignore = "takes many minutes; run after a change of how pages are written"]
 fn a_hundred_kills_leave_a_whole_page() {
     if gpu_or_skip() {
-        kills(&BENCH, 50);
+        kills(&["bench", "control"], 50);
         kills(&["report"], 50);
     }
 }

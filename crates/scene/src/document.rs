@@ -316,9 +316,9 @@ impl<'d> Table<'d> {
             DeValue::Array(array) => Err(self.error(
                 key,
                 format_args!(
-                    "must be an array of {N} numbers, such as {}, not of {}",
-                    example(N),
-                    array.len()
+                    "must be an array of {N} numbers, not of {} (such as {})",
+                    array.len(),
+                    example(N)
                 ),
             )),
             other => {

@@ -76,7 +76,7 @@ fn a_fault_is_said_with_what_would_be_right() {
         (
             "shape = \"quad\"",
             "shape = \"points\"",
-            ":8: object \"quad\": `shape` `points` needs `positions = [[x, y, z], …]`, or `count = N`",
+            ":6: object \"quad\": `shape = \"points\"` needs `positions = [[x, y, z], …]`, or `count = N`",
         ),
         (
             "[[mirror]]",

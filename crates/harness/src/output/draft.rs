@@ -112,13 +112,10 @@ impl Draft {
     pub fn put(&mut self, page: &str, record: &[u8]) -> anyhow::Result<PathBuf> {
         let page = self.with_suffix(page);
         let (path, record_path) = (self.folder.join(PAGE), self.folder.join(RECORD));
-        write_together(&[(&path, page.as_bytes()), (&record_path, record)])?;
-        for part in &mut self.parts {
-            part.folder.keep();
-        }
-        if let Some(made) = &mut self.made {
-            made.keep();
-        }
+        let parts = self.parts.iter_mut().map(|part| &mut part.folder);
+        let mut folders: Vec<&mut NewFolder> = parts.chain(&mut self.made).collect();
+        let files = [(path.as_path(), page.as_bytes()), (&record_path, record)];
+        write_together(&files, &mut folders)?;
         // What the page before showed.
         remove_forsaken(&self.folder);
         Ok(path)

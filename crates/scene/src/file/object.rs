@@ -124,9 +124,8 @@ fn points(table: &Table<'_>) -> Result<Form, SceneError> {
         (None, None) if seed.is_none() && t.is_none() && mirror.is_none() => {
             // A key that nobody knows says more than those that are missing.
             table.finish()?;
-            Err(table.error(
-                "shape",
-                "`points` needs `positions = [[x, y, z], …]`, or `count = N` for so many points that \
+            Err(table.error_here(
+                "`shape = \"points\"` needs `positions = [[x, y, z], …]`, or `count = N` for so many points that \
                  a mirror reflects",
             ))
         }

@@ -212,7 +212,8 @@ fn in_32_bits(frame: &mut Frame, center: Vec3, angle: f32) {
         .collect::<Vec<_>>()
     {
         let at = *primary.position.at(x, y);
-        let off = Vec3::new(random(), random(), random()) * at.abs().max_element() * f32::EPSILON;
+        let off =
+            Vec3::new(random(), random(), random()) * at.abs().max_element() * 0.5 * f32::EPSILON;
         *primary.position.at_mut(x, y) = at + off;
         let turned = Vec3::new(random(), random(), random()) * angle;
         *primary.normal.at_mut(x, y) = (at + off - center + turned).normalize();

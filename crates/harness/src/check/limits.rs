@@ -32,12 +32,12 @@ pub fn agree_once(start: RayStart, scale: f64) -> f64 {
 /// What a 32-bit float can tell of a number: half the distance to the next one, relative.
 pub const FLOAT: f64 = 1.0 / 16_777_216.0;
 
-/// How many times a coordinate is rounded on the way to a normal, in the median and at the 99.9th
-/// percentile: as a ray starts, meets, and is seen from the mirror's middle. Where a ray grazes the
-/// mirror a point moves further along it than the coordinates say.
+/// How many roundings of a coordinate a normal may be turned by, in the median and at the 99.9th
+/// percentile. On a ball of radius 1 that is 1000 from the origin 0.4 and 7 were measured: where a ray
+/// grazes the mirror a point moves further along it than its coordinates are rounded.
 pub const ROUNDINGS: Distance = Distance {
-    p50: 4.0,
-    p999: 40.0,
+    p50: 1.5,
+    p999: 20.0,
 };
 
 /// As many pixels may always disagree, or be further off than the 99.9th percentile may: that is

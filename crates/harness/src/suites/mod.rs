@@ -157,6 +157,19 @@ mod tests {
     }
 
     #[test]
+    fn each_diagram_has_a_file_of_its_own() {
+        for suite in all() {
+            for figure in (suite.figures)(&Asked::default()) {
+                let mut paths: Vec<&str> = figure.quantities.iter().map(|one| one.path).collect();
+                let all = paths.len();
+                paths.sort_unstable();
+                paths.dedup();
+                assert_eq!(paths.len(), all, "{}, {}", suite.name, figure.anchor);
+            }
+        }
+    }
+
+    #[test]
     fn a_scene_of_the_users_takes_the_place_of_ours() {
         let asked = Asked {
             scene: Some("mine.toml"),

@@ -166,8 +166,8 @@ fn kills(verb: &[&str], times: u32) {
     is_clean(&folder);
 }
 
-/// One scene in two parts, and pictures.
-const SHORT: [&str; 4] = ["bench", "papers", "--scene", "sphere-square"];
+/// One scene, and diagrams.
+const SHORT: [&str; 4] = ["bench", "control", "--scene", "sphere-square"];
 
 #[test]
 fn a_bench_killed_over_an_old_one_leaves_a_whole_page() {
@@ -177,10 +177,40 @@ fn a_bench_killed_over_an_old_one_leaves_a_whole_page() {
 }
 
 #[test]
+fn an_interrupted_bench_says_how_far_it_is_and_concludes_nothing() {
+    if !gpu_or_skip() {
+        return;
+    }
+    let parent = tempfile::tempdir().expect("a folder");
+    let folder = parent.path().join("out");
+    let mut child = started(&["bench", "control"], &folder, "0.05");
+    while page(&folder).is_none() {
+        assert!(child.try_wait().expect("a child").is_none(), "no page");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    signal(&child, "-INT");
+    let ended = child.wait().expect("an end");
+    assert_eq!(ended.code(), Some(1));
+    let page = page(&folder).expect("a page");
+    is_whole(&folder, &page);
+    is_clean(&folder);
+    for says in ["Not finished", "nothing is concluded from it yet"] {
+        assert!(page.contains(says), "{says}");
+    }
+    for claim in [
+        "The exact mirror differs",
+        "shows the right object on",
+        "grows as the power",
+    ] {
+        assert!(!page.contains(claim), "{claim}");
+    }
+}
+
+#[test]
 #[ignore = "takes many minutes; run after a change of how pages are written"]
 fn a_hundred_kills_leave_a_whole_page() {
     if gpu_or_skip() {
-        kills(&["bench", "control"], 50);
+        kills(&SHORT, 50);
         kills(&["report"], 50);
     }
 }

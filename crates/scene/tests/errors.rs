@@ -219,7 +219,7 @@ fn messages_name_file_line_and_key() {
             "shape = \"grid\"\nn = 4",
             "",
             8,
-            &["object \"floor\"", "`mesh` or `shape`"],
+            &["object \"floor\"", "`mesh = \"FILE.obj\"`"],
         ),
         (
             "shape = \"grid\"",
@@ -379,7 +379,7 @@ fn messages_name_file_line_and_key() {
             19,
             &["`half_angle_deg`"],
         ),
-        (sphere, "", 14, &["`shape` or `mesh`"]),
+        (sphere, "", 14, &["`mesh = \"FILE.obj\"`"]),
         (
             "[[mirror]]",
             "[motion]\norbit = 1\n[[mirror]]",
@@ -423,7 +423,7 @@ fn points_need_what_they_are_made_from() {
         None
     );
     for (keys, line, part) in [
-        ("", 19, "`count`"),
+        ("", 19, "`count = N`"),
         ("positions = []", 22, "`positions`"),
         ("positions = [[1, 2]]", 22, "`positions`"),
         ("positions = [[1, 2, 3]]\ncount = 2", 23, "`count`"),

@@ -28,7 +28,7 @@ static SCENES: LazyLock<Vec<String>> = LazyLock::new(|| {
         .filter(|path| path.extension().is_some_and(|found| found == "toml"))
         .collect();
     paths.sort();
-    let texts = paths.iter().map(|path| fs::read_to_string(path));
+    let texts = paths.iter().map(fs::read_to_string);
     texts.map(|text| text.expect("a text")).collect()
 });
 

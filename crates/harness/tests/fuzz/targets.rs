@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use catoptric::record;
-use catoptric_frame::Frame;
+use catoptric_frame::{Channels, Frame};
 use catoptric_scene::LoadOptions;
 
 use super::inputs;
@@ -52,7 +52,7 @@ pub const TARGETS: [Target; 6] = [
         make: inputs::exr,
         run: |folder| {
             let file = folder.join("a.exr");
-            let [ours, any] = [Frame::read_exr(&file), Frame::read(&file)];
+            let (ours, any) = (Frame::read_exr(&file), Channels::read(&file));
             ours.is_ok() || any.is_ok()
         },
     },

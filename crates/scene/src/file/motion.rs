@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use crate::document::{SMALLEST, Table};
 use crate::motion::{CameraPath, Motion, Move, Subject};
-use crate::suggest::suggest;
 use crate::shape::Enclosure;
+use crate::suggest::suggest;
 use crate::{Camera, Mirror, Object, SceneError};
 
 /// Most frames of a sequence.

@@ -92,7 +92,7 @@ fn a_mirror_written_for_both_sides_reflects_on_both() {
         let both = [
             "f 1 2 3 4\nf 4 3 2 1\n",
             "f 4 3 2 1\nf 1 2 3 4\n",
-            "f 1 2 3 4\nf 1 2 3 4\nf 2 1 4 3\n",
+            "f 4 3 2 1\nf 1 2 3 4\nf 2 3 4 1\nf 1 4 3 2\n",
         ];
         let mut frames = Vec::new();
         for (index, faces) in both.iter().enumerate() {

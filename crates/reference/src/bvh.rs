@@ -9,7 +9,7 @@
 //!
 //! The answer depends on the triangles and the ray alone: not on the shape of the hierarchy, nor
 //! on the processor (arithmetic that decides is never fused). Of triangles hit at the same
-//! distance, to rounding ([`EQUAL`]), the first wins.
+//! distance, to rounding (`EQUAL`), the first wins.
 
 mod leaf;
 #[cfg(test)]

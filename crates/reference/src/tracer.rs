@@ -3,13 +3,13 @@
 //! Objects are two-sided triangles; analytic mirrors are met exactly ([`MirrorShape::intersect`](catoptric_scene::MirrorShape::intersect));
 //! mesh mirrors are triangles with interpolated normals.
 //!
-//! Surfaces may coincide. A mirror as far away as an object ([`EQUAL`]) is met before it, and a
+//! Surfaces may coincide. A mirror as far away as an object (`EQUAL`) is met before it, and a
 //! mirror's front before a back: a mirror that is written once for each side reflects on both. Of
 //! coincident triangles of objects the first is met.
 //!
 //! A ray that leaves a mirror must not meet it again where it starts. From a mesh, the ray
 //! starts `NUDGE` × the scene's extent off the triangle, on its reflecting side, and so moves
-//! away from it and, where the mesh is convex, from its neighbours; a mesh as near as [`EQUAL`]
+//! away from it and, where the mesh is convex, from its neighbours; a mesh as near as `EQUAL`
 //! lies where it starts, as its other side does. A sphere, an ellipsoid and a
 //! plane are not met again by a ray that leaves them, so they are left out. A bowl is met again
 //! only beyond `BOWL_NUDGE` × its extent.

@@ -245,7 +245,7 @@ mod tests {
 
     #[test]
     fn names_are_shown_as_they_are_and_do_nothing() {
-        let mut table = Table::new(["name", "px"]);
+        let mut table = Table::new(["name", "pixels"]);
         table.row(["a\nb\u{1b}[31m,\"c\"", "1"]);
         table.row(["<img> `x` *y* [z](u)\\|", "22"]);
         let text = table.write(Format::Table);
@@ -253,7 +253,7 @@ mod tests {
         assert_eq!(text.lines().count(), 3);
         let text = table.write(Format::Markdown);
         assert!(
-            text.contains(r"| &lt;img> \`x\` \*y\* \[z\](u)\\\| | 22 |"),
+            text.contains(r"| &lt;img> \`x\` \*y\* \[z\](u)\\\| |     22 |"),
             "{text}"
         );
         let lengths: Vec<usize> = text.lines().map(|line| line.chars().count()).collect();

@@ -5,12 +5,14 @@
 //! * `ci` does what a change must pass: formatting, lints, documentation, `test`.
 //! * `new` writes what a new technique or a new metric starts from.
 //! * `fuzz` feeds made-up input to everything that is read from outside.
+//! * `drivers` compares what the techniques answer on two Vulkan drivers.
 //! * `embree` measures Embree beside our ray tracer, on the same rays.
 //!
 //! Each step is printed before it runs; the first that fails ends the chore with its exit code.
 //! Exit code 3 means that the machine lacks something and it could not be installed.
 
 mod ci;
+mod drivers;
 mod embree;
 mod new;
 mod setup;
@@ -63,6 +65,12 @@ enum Chore {
         /// Only this one: scene, mesh, texture, exr, name or record
         target: Option<String>,
     },
+    /// Compare what the techniques answer on this machine's driver and on another: SwiftShader, where
+    /// Chromium has brought it, or the one of VK_DRIVER_FILES' manifest that is named
+    Drivers {
+        /// The other driver's manifest (JSON)
+        manifest: Option<PathBuf>,
+    },
     /// Measure Embree beside our ray tracer on the same rays, and check that hits agree
     Embree,
     /// Write the files and lines that something new starts from: they compile and run
@@ -110,6 +118,13 @@ fn run(chore: Chore) -> Result<u8> {
             (&[Need::Vulkan, Need::CppCompiler], steps)
         }
         Chore::Fuzz { minutes, target } => (&[], vec![fuzz(*minutes, target.as_deref())]),
+        Chore::Drivers { manifest } => match drivers::other(manifest.as_deref()) {
+            Ok(manifest) => (&[Need::Vulkan], drivers::steps(&manifest)),
+            Err(message) => {
+                eprintln!("xtask: {message}");
+                return Ok(NOT_SET_UP);
+            }
+        },
         Chore::Embree => (&[Need::CppCompiler, Need::Embree], vec![]),
         Chore::New { .. } => (&[], vec![]),
     };

@@ -321,6 +321,7 @@ pub fn mesh(seed: u64) -> Input {
     let mut random = random(seed);
     let mut lines = vec!["mtllib m.mtl".to_owned()];
     lines.extend((0..8).map(|i| format!("v {} {} {}", i % 2, i / 2 % 2, i / 4)));
+    lines.extend((0..9).map(|i| format!("vt {} {}\nvn {} 1 0", i % 3, i / 3, i % 2)));
     lines.extend((0..random.below(30)).map(|_| statement(&mut random)));
     let materials: Vec<_> = (0..random.below(8))
         .map(|_| material(&mut random))
@@ -432,11 +433,12 @@ pub fn exr(seed: u64) -> Input {
     const HEADER: usize = 1200;
     let mut random = random(seed);
     let mut bytes = one(&mut random, &FRAMES).clone();
-    let rest = match once_in(&mut random, 4) {
-        true => Vec::new(),
-        false => bytes.split_off(HEADER.min(bytes.len())),
-    };
-    let mut bytes = mutate::bytes(&mut random, bytes);
+    let header = HEADER.min(bytes.len());
+    let mut rest = bytes.split_off(header);
+    match once_in(&mut random, 3) {
+        true => rest = mutate::bytes(&mut random, rest),
+        false => bytes = mutate::bytes(&mut random, bytes),
+    }
     bytes.extend(rest);
     Input(vec![("a.exr", bytes)])
 }

@@ -86,6 +86,17 @@ fn place(folder: &Path) -> Option<(u64, u64)> {
     Some((seed.parse().ok()?, accepted.parse().ok()?))
 }
 
+/// A new folder for a worker, in memory where there is such: files on disks that are written again and
+/// again are waited for.
+fn folder() -> tempfile::TempDir {
+    let memory = Path::new("/dev/shm");
+    let made = match memory.is_dir() {
+        true => tempfile::tempdir_in(memory),
+        false => tempfile::tempdir(),
+    };
+    made.expect("a folder")
+}
+
 fn start(target: &Target, first: u64, seconds: u64, folder: &Path) -> Child {
     let program = std::env::current_exe().expect("a program");
     let arguments = ["--exact", "worker", "--ignored"];
@@ -142,7 +153,7 @@ fn fuzz(name: &str) {
         if left == 0 && next > first {
             break;
         }
-        let folder = tempfile::tempdir().expect("a folder");
+        let folder = folder();
         let why = watch(
             start(target, next, left.max(1), folder.path()),
             folder.path(),
@@ -190,7 +201,7 @@ fn a_failure_is_noticed() {
         ("aborts", "signal"),
         ("fills", "signal"),
     ] {
-        let folder = tempfile::tempdir().expect("a folder");
+        let folder = folder();
         let worker = start(targets::named(name), 0, 1, folder.path());
         let found = watch(worker, folder.path());
         let limited = cfg!(unix) || name != "fills";

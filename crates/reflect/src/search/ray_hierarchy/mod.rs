@@ -33,19 +33,36 @@ words! {
     /// What is done about holes between the cones.
     pub(crate) enum Repair {
         None = "none",
-        /// A second test with enlarged cones and spheres.
+        /// Enlarged cones and spheres.
         Enlarge = "enlarge",
         /// An answer from a level above the base.
         Stop = "stop",
     }
 }
 
+words! {
+    /// What is repeated with enlarged cones and spheres. The thesis (§4.2) leaves it open: "the last
+    /// search step is repeated".
+    pub(crate) enum Again {
+        /// The whole search, where it has failed. The reading whose cost and error fit what the
+        /// thesis prints.
+        Search = "search",
+        /// The test of the children at every hole on the way.
+        Hole = "hole",
+        /// The test of the children of the texel after which the stack is empty.
+        Last = "last",
+    }
+}
+
 options! {
     /// The search, as its options describe it.
     pub(crate) struct RayHierarchy {
-        /// what is done about holes between the cones: nothing, a second test with enlarged cones
+        /// what is done about holes between the cones: nothing, a repetition with enlarged cones
         /// and spheres, or an answer from a level above the base
         repair: Repair,
+        /// what is repeated: a search that failed, the test at every hole on the way, or the test
+        /// at the last texel of a search that failed (repair=enlarge)
+        again: Again,
         /// factor on the cones' half angles (repair=enlarge)
         cone: f64 = 1.5 in 1.0..=100.0,
         /// factor on the spheres' radii (repair=enlarge)
@@ -104,7 +121,11 @@ impl Recipe for RayHierarchy {
         ];
         let features: &[&str] = match self.repair {
             Repair::None => &[],
-            Repair::Enlarge => &["enlarge"],
+            Repair::Enlarge => match self.again {
+                Again::Search => &["enlarge_search"],
+                Again::Hole => &["enlarge_hole"],
+                Again::Last => &["enlarge_last"],
+            },
             Repair::Stop => &["stop"],
         };
         Ok(Box::new(Descent {
@@ -159,7 +180,7 @@ mod tests {
         assert_layout!(
             RepairUniform { cone, sphere, stop },
             "ray_hierarchy/search",
-            &["enlarge", "stop"],
+            &["enlarge_search", "stop"],
             "Repair"
         );
     }

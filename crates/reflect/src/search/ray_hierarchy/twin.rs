@@ -2,7 +2,7 @@
 
 use glam::{IVec2, Vec2, Vec3, Vec4};
 
-use super::{RayHierarchy, Repair};
+use super::{Again, RayHierarchy, Repair};
 use crate::stage::points::{Effort, Found};
 use crate::stage::twin::GBuffer;
 
@@ -191,8 +191,8 @@ struct Answer {
 struct Descent<'a> {
     gbuffer: &'a GBuffer,
     pyramid: &'a Pyramid,
-    /// `repair=enlarge`: factors on cones and spheres.
-    enlarge: Option<[f32; 2]>,
+    /// `repair=enlarge`: what is repeated, with which factors on cones and spheres.
+    enlarge: Option<(Again, [f32; 2])>,
     /// `repair=stop`.
     stop: Option<usize>,
 }
@@ -204,7 +204,7 @@ impl<'a> Descent<'a> {
         Self {
             gbuffer,
             pyramid,
-            enlarge: is(Repair::Enlarge).then_some(factors),
+            enlarge: is(Repair::Enlarge).then_some((options.again, factors)),
             stop: is(Repair::Stop).then_some(options.stop as usize),
         }
     }
@@ -230,18 +230,33 @@ impl<'a> Descent<'a> {
         };
         let mut stopped = false;
         let mut node = pyramid.top();
+        let mut factors = [1.0, 1.0];
         while let Some(next) = stack.pop() {
             node = next;
             stopped = self.stop.is_some_and(|stop| node.level <= stop);
             if stopped || node.level == 1 {
                 break;
             }
-            if !push_children(&mut stack, node, [1.0, 1.0]) {
+            if !push_children(&mut stack, node, factors) {
                 flags |= Effort::MET_HOLE;
-                if let Some(factors) = self.enlarge {
+                if let Some((Again::Hole, enlarged)) = self.enlarge {
                     flags |= Effort::ENLARGED;
-                    push_children(&mut stack, node, factors);
+                    push_children(&mut stack, node, enlarged);
                 }
+            }
+            match self.enlarge {
+                Some((Again::Last, enlarged)) if stack.is_empty() => {
+                    flags |= Effort::ENLARGED;
+                    push_children(&mut stack, node, enlarged);
+                }
+                Some((Again::Search, enlarged))
+                    if stack.is_empty() && flags & Effort::ENLARGED == 0 =>
+                {
+                    flags |= Effort::ENLARGED;
+                    factors = enlarged;
+                    stack.push(pyramid.top());
+                }
+                _ => {}
             }
             if stack.is_empty() {
                 flags |= Effort::STAND_IN;
@@ -433,7 +448,9 @@ mod tests {
             ("prototype-sphere", "repair=none", [512, 512]),
             ("prototype-sphere", "repair=stop,stop=2", [256, 256]),
             ("prototype-ellipsoid", "repair=enlarge", [256, 256]),
+            ("prototype-sphere", "repair=enlarge,again=hole", [256, 256]),
             ("prototype-bowl", "repair=enlarge,cone=1.2", [160, 120]),
+            ("prototype-bowl", "repair=enlarge,again=last", [160, 120]),
             ("spheres", "repair=none", [160, 120]),
         ] {
             let (share, work, count) = agreement(&gpu, name, options, size);

@@ -1,5 +1,6 @@
 //! Object order: a reflection point for every vertex, then the triangles are drawn there
-//! (Szabo 2013, Alg. 3.1): mirror G-buffer → search → refine → virtual triangles → composite.
+//! (Szabo 2013, Alg. 3.1): mirror G-buffer → maps of each
+//! mirror → search → refine → virtual triangles → composite.
 
 use catoptric_scene::Scene;
 
@@ -37,7 +38,7 @@ pub(crate) fn prepare(
     size: [u32; 2],
 ) -> Result<Box<dyn Technique>, ReflectError> {
     let search::Asked { recipe, common } = &asked;
-    let stage = Stage::new(gpu, common.stage, scene, size)?;
+    let stage = Stage::searched(gpu, common, scene, size)?;
     let points_layout = points_layout(gpu);
     let continued = SearchOptions {
         hidden: Hidden::Extend,
@@ -81,7 +82,6 @@ impl Technique for ObjectOrder {
 
     fn begin_frame(&mut self, gpu: &Gpu) -> Result<Built, ReflectError> {
         let warm = self.has_previous && self.properties.carries_over;
-        self.search.begin_frame(gpu);
         self.refine.begin_frame(gpu, &self.stage, warm);
         self.has_previous = true;
         Ok(Built::Nothing)
@@ -91,9 +91,13 @@ impl Technique for ObjectOrder {
         // First of all, so that the clock of no later pass waits for it (`timing`).
         Raster::record_clear(frame, &self.stage, variant);
         self.stage.begin(frame, variant);
-        self.search.record_build(frame, &self.stage);
+        let reads_maps = self.search.reads_maps() || self.refine.reads_maps();
         for mirror in 0..self.stage.world.mirrors.len() {
             let search = self.search.as_ref();
+            if reads_maps {
+                self.stage.record_maps(frame, mirror);
+            }
+            search.record_build(frame, &self.stage, mirror);
             self.refine
                 .record(frame, &self.stage, search, mirror, variant);
         }

@@ -55,7 +55,7 @@ impl Searched {
         let Asked::ObjectOrder(asked, _) = asked(&spec) else {
             panic!("{technique} is no search")
         };
-        let stage = Stage::new(gpu, asked.common.stage, scene, size).expect("fits the device");
+        let stage = Stage::searched(gpu, &asked.common, scene, size).expect("fits the device");
         let points_layout = points_layout(gpu);
         let search = asked.recipe.make(&Context {
             gpu,
@@ -77,11 +77,11 @@ impl Searched {
 
     /// Runs the search once more.
     pub(crate) fn run(&mut self, gpu: &Gpu) {
-        self.search.begin_frame(gpu);
         gpu.run(|frame| {
             self.stage.begin(frame, Variant::AllLayers);
-            self.search.record_build(frame, &self.stage);
             for (mirror, points) in self.batches.iter().enumerate() {
+                self.stage.record_maps(frame, mirror);
+                self.search.record_build(frame, &self.stage, mirror);
                 let variant = Variant::AllLayers;
                 self.search
                     .record_search(frame, &self.stage, mirror, points, variant);

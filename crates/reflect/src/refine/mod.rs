@@ -53,6 +53,11 @@ pub(crate) trait Refine {
     /// Called before each frame is recorded; `warm`: the previous frame's answers help the search.
     fn begin_frame(&mut self, gpu: &Gpu, stage: &Stage, warm: bool);
 
+    /// Whether it reads the stage's maps, whatever the search does.
+    fn reads_maps(&self) -> bool {
+        false
+    }
+
     /// Records, for one mirror, the searches and the virtual triangles.
     fn record(
         &self,

@@ -1,6 +1,6 @@
 //! Searches: a reflection point for every vertex. One folder a search, named as its shader.
 //!
-//! A search reads the mirror G-buffer (or maps of its own) and answers for any batch of
+//! A search reads the mirror's maps (or some of its own) and answers for any batch of
 //! [`Points`]: the scene's vertices, a refinement's new points, a grid's corners.
 
 pub(crate) mod linear;
@@ -70,18 +70,22 @@ impl Asked {
 }
 
 /// A search that stands ready for one scene and image size. One that reads nothing but the stage's
-/// G-buffer only records its search.
+/// maps only records its search.
 pub(crate) trait Search {
     /// Takes over what moved; the stage has been updated already.
     fn update(&mut self, _: &Gpu, _: &Stage) {}
 
-    /// Called before each frame is recorded.
-    fn begin_frame(&mut self, _: &Gpu) {}
+    /// Whether it reads the stage's maps.
+    fn reads_maps(&self) -> bool {
+        true
+    }
 
-    /// Records what is made once a frame from the G-buffer, before any search.
-    fn record_build(&self, _: &mut Recorder<'_>, _: &Stage) {}
+    /// Records what is made once a frame from the maps of a mirror (an index), before any search on
+    /// it.
+    fn record_build(&self, _: &mut Recorder<'_>, _: &Stage, _mirror: usize) {}
 
-    /// Records the search of a batch on one mirror, as the pass `search`.
+    /// Records the search of a batch on one mirror, as the pass `search`. It is the mirror of the
+    /// latest [`Search::record_build`].
     fn record_search(
         &self,
         frame: &mut Recorder<'_>,
@@ -156,11 +160,11 @@ impl Pipelines {
         })
     }
 
-    /// Records the pass `search`: one thread a point. `on` is the mirror, as group 1.
+    /// Records the pass `search`: one thread a point.
     fn record(
         &self,
         frame: &mut Recorder<'_>,
-        (stage, on): (&Stage, &wgpu::BindGroup),
+        (stage, mirror): (&Stage, usize),
         points: &Points,
         own: &wgpu::BindGroup,
         variant: Variant,
@@ -172,7 +176,7 @@ impl Pipelines {
         frame.compute("search", |pass| {
             pass.set_pipeline(kernel);
             pass.set_bind_group(0, &stage.world.view_group, &[]);
-            pass.set_bind_group(1, on, &[]);
+            pass.set_bind_group(1, &stage.maps().mirror_groups[mirror], &[]);
             pass.set_bind_group(2, &points.group, &[]);
             pass.set_bind_group(3, own, &[]);
             points.run(pass, kernel);

@@ -32,7 +32,7 @@ pub(crate) fn path(
     mirror: usize,
 ) -> Result<Vec<Visit>, ReflectError> {
     let points_layout = points_layout(gpu);
-    let mut search = asked.recipe.make(&Context {
+    let search = asked.recipe.make(&Context {
         gpu,
         stage,
         extends: asked.common.hidden == Hidden::Extend,
@@ -50,10 +50,10 @@ pub(crate) fn path(
     let position = storage_bytes(gpu, bytemuck::cast_slice(&point.extend(1.0).to_array()));
     let dispatch = Dispatch::Direct(1);
     let points = Points::with_range(gpu, &points_layout, &position, MOST, range, dispatch);
-    search.begin_frame(gpu);
     gpu.run(|frame| {
         stage.begin(frame, Variant::AllLayers);
-        search.record_build(frame, stage);
+        stage.record_maps(frame, mirror);
+        search.record_build(frame, stage, mirror);
         search.record_search(frame, stage, mirror, &points, Variant::AllLayers);
     });
     let records = points.read_found(gpu, MOST).into_iter().skip(1);

@@ -1,5 +1,7 @@
-//! Searches on the image that start at one texel for all vertices: the mirror's texel nearest to the
-//! projection of its centre, or of its bounding box, found by the pass `start` (`start.wesl`).
+//! Searches on the image that start at one texel for all vertices: where the mirror's centre, or its
+//! bounding box's, is projected; the pass `start` (`start.wesl`). It looks at that one texel, as
+//! `MirrorCenter` of Szabo 2013, Alg. 3.2, and scans the image for the nearest only where the texel
+//! does not show the mirror.
 
 use catoptric_scene::{Mirror, View};
 use glam::{DVec2, Vec2};
@@ -7,19 +9,18 @@ use glam::{DVec2, Vec2};
 use super::{Context, Pipelines, Search};
 use crate::error::ReflectError;
 use crate::gpu::{
-    Gpu, Kernel, Recorder, Slot, compute, group, layout, module, set_uniform, storage_bytes,
+    Gpu, Kernel, Recorder, Slot, compute, group, layout, module, set_uniform, storage_zeros,
     uniform,
 };
 use crate::options::words;
 use crate::stage::Stage;
-use crate::stage::gbuffer::{GBuffer, MirrorsAlone};
 use crate::stage::points::Points;
 use crate::stage::variant::Variant;
 
 words! {
     /// Where a search starts.
     pub(crate) enum Start {
-        /// The mirror's projected centre.
+        /// The mirror's projected middle.
         Center = "center",
         /// Its projected bounding box's.
         Bounds = "bounds",
@@ -55,12 +56,8 @@ impl Search for FromStart {
         self.starts.update(gpu, stage);
     }
 
-    fn begin_frame(&mut self, gpu: &Gpu) {
-        self.starts.begin_frame(gpu);
-    }
-
-    fn record_build(&self, frame: &mut Recorder<'_>, stage: &Stage) {
-        self.starts.record(frame, stage);
+    fn record_build(&self, frame: &mut Recorder<'_>, stage: &Stage, mirror: usize) {
+        self.starts.record(frame, stage, mirror);
     }
 
     fn record_search(
@@ -72,8 +69,7 @@ impl Search for FromStart {
         variant: Variant,
     ) {
         let own = &self.starts.groups[mirror];
-        let on = &self.starts.gbuffer(stage).mirror_groups[mirror];
-        (self.pipelines).record(frame, (stage, on), points, own, variant);
+        (self.pipelines).record(frame, (stage, mirror), points, own, variant);
     }
 }
 
@@ -84,8 +80,7 @@ struct Starts {
     /// One a mirror.
     groups: Vec<wgpu::BindGroup>,
     from_bounds: bool,
-    /// What is searched where vertices are continued; else the stage's G-buffer.
-    alone: Option<MirrorsAlone>,
+    look: Kernel,
     nearest: Kernel,
     choose: Kernel,
     mirrors: Vec<StartTexel>,
@@ -94,30 +89,38 @@ struct Starts {
 struct StartTexel {
     /// Wanted image coordinates.
     wanted: wgpu::Buffer,
-    /// Texel index, then the square of its distance from the wanted one.
+    /// Index of the texel found, then the square of its distance from the wanted one.
     texel: wgpu::Buffer,
     find: wgpu::BindGroup,
+    /// Workgroups of the scan: none where the wanted texel shows the mirror.
+    scan: wgpu::Buffer,
+    decide: wgpu::BindGroup,
 }
 
 impl Starts {
     fn new(context: &Context<'_>, start: Start) -> Result<Self, ReflectError> {
         let Context { gpu, stage, .. } = context;
         let from_bounds = start == Start::Bounds;
-        let alone = (context.extends).then(|| MirrorsAlone::new(gpu, &stage.world));
         let find = layout(gpu, "start found", &[Slot::Uniform, Slot::Write]);
+        let decide = layout(gpu, "start scan", &[Slot::Write]);
         let read = layout(gpu, "start", &[Slot::Read]);
         let module = module(gpu, "start", &[])?;
         let layouts = [
             Some(&stage.world.view_layout),
             Some(&stage.gbuffer.mirror_layout),
             Some(&find),
+            Some(&decide),
         ];
+        let [scanning, deciding] = [&layouts[..3], &layouts[..]];
         let mirrors = (0..stage.world.mirrors.len()).map(|index| {
             let wanted = uniform(gpu, &start_point(stage, index, from_bounds));
-            let texel = storage_bytes(gpu, &[0xff; 8]);
+            let texel = storage_zeros(gpu, 8);
+            let scan = storage_zeros(gpu, 12);
             let resources = [wanted.as_entire_binding(), texel.as_entire_binding()];
             StartTexel {
                 find: group(gpu, &find, &resources),
+                decide: group(gpu, &decide, &[scan.as_entire_binding()]),
+                scan,
                 wanted,
                 texel,
             }
@@ -128,9 +131,9 @@ impl Starts {
             groups: texels.map(|texel| group(gpu, &read, &[texel])).collect(),
             layout: read,
             from_bounds,
-            alone: alone.transpose()?,
-            nearest: compute(gpu, &module, "nearest", &layouts),
-            choose: compute(gpu, &module, "choose", &layouts),
+            look: compute(gpu, &module, "look", deciding),
+            nearest: compute(gpu, &module, "nearest", scanning),
+            choose: compute(gpu, &module, "choose", scanning),
             mirrors,
         })
     }
@@ -143,35 +146,19 @@ impl Starts {
         }
     }
 
-    /// Forgets the last frame's texels.
-    fn begin_frame(&self, gpu: &Gpu) {
-        for start in &self.mirrors {
-            gpu.queue.write_buffer(&start.texel, 0, &[0xff; 8]);
-        }
-    }
-
-    /// What the search reads.
-    fn gbuffer<'s>(&'s self, stage: &'s Stage) -> &'s GBuffer {
-        let alone = self.alone.as_ref();
-        alone.map_or(&stage.gbuffer, |alone| &alone.gbuffer)
-    }
-
-    /// Records the pass `start`, and what it reads where that is not the stage's.
-    fn record(&self, frame: &mut Recorder<'_>, stage: &Stage) {
-        if let Some(alone) = &self.alone {
-            alone.record(frame, &stage.world);
-        }
-        let mirrors = &self.gbuffer(stage).mirror_groups;
+    /// Records the pass `start` for a mirror whose maps are the stage's.
+    fn record(&self, frame: &mut Recorder<'_>, stage: &Stage, mirror: usize) {
+        let start = &self.mirrors[mirror];
         frame.compute("start", |pass| {
             pass.set_bind_group(0, &stage.world.view_group, &[]);
-            for (start, mirror) in self.mirrors.iter().zip(mirrors) {
-                pass.set_bind_group(1, mirror, &[]);
-                pass.set_bind_group(2, &start.find, &[]);
-                for kernel in [&self.nearest, &self.choose] {
-                    let [width, height] = kernel.groups_over(stage.world.size);
-                    pass.set_pipeline(kernel);
-                    pass.dispatch_workgroups(width, height, 1);
-                }
+            pass.set_bind_group(1, &stage.maps().mirror_groups[mirror], &[]);
+            pass.set_bind_group(2, &start.find, &[]);
+            pass.set_bind_group(3, &start.decide, &[]);
+            pass.set_pipeline(&self.look);
+            pass.dispatch_workgroups(1, 1, 1);
+            for kernel in [&self.nearest, &self.choose] {
+                pass.set_pipeline(kernel);
+                pass.dispatch_workgroups_indirect(&start.scan, 0);
             }
         });
     }
@@ -183,7 +170,7 @@ fn start_point(stage: &Stage, mirror: usize, from_bounds: bool) -> Vec2 {
     let view = world.scene.camera.view(world.size);
     let mirror = &world.scene.mirrors[mirror];
     let middle = DVec2::new(f64::from(view.size[0]), f64::from(view.size[1])) / 2.0;
-    let center = view.project(mirror.shape.center()).map(|(at, _)| at);
+    let center = view.project(mirror.shape.middle()).map(|(at, _)| at);
     let start = if from_bounds {
         bounds_middle(mirror, &view)
     } else {

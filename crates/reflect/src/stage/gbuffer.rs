@@ -1,8 +1,10 @@
 //! The mirror G-buffer: position and normal of the mirror seen at each pixel (Szabo 2013, §3.1).
 
+use std::ops::Range;
+
 use crate::error::ReflectError;
 use crate::gpu::{
-    Begin, DEPTH, FLOAT4, Gpu, RasterEntries, Recorder, Slot, group, layout, module, raster_to,
+    Begin, FLOAT4, Gpu, RasterEntries, Recorder, Slot, group, layout, module, raster_to,
     target, view,
 };
 use crate::stage::world::{MirrorPipelines, World};
@@ -77,45 +79,25 @@ impl GBuffer {
         })
     }
 
-    /// Draws every mirror over a depth, such as that of the objects.
+    /// Records a pass that draws some mirrors (indices) over a depth, such as that of the objects.
     pub(crate) fn record(
         &self,
         frame: &mut Recorder<'_>,
+        pass: &str,
         world: &World,
+        mirrors: Range<usize>,
         depth: (&wgpu::Texture, Begin),
     ) {
         let targets = [view(&self.position), view(&self.normal)];
         let targets = [&targets[0], &targets[1]];
-        frame.render("gbuffer", &targets, Begin::Clear, Some(depth), |pass| {
-            for (mirror, group) in world.mirrors.iter().zip(&self.draw_groups) {
+        frame.render(pass, &targets, Begin::Clear, Some(depth), |pass| {
+            let drawn = world.mirrors[mirrors.clone()].iter();
+            for (mirror, group) in drawn.zip(&self.draw_groups[mirrors]) {
                 pass.set_bind_group(0, &world.view_group, &[]);
                 pass.set_bind_group(1, group, &[]);
                 self.pipelines.draw(pass, mirror);
             }
         });
-    }
-}
-
-/// A G-buffer of the mirrors alone, as if no object stood before them.
-///
-/// A walk over the image that goes on beyond what the mirror shows must not end at the outline of
-/// an object, either: the reflection point may lie on the object's other side, or behind it.
-pub(crate) struct MirrorsAlone {
-    pub gbuffer: GBuffer,
-    depth: wgpu::Texture,
-}
-
-impl MirrorsAlone {
-    pub(crate) fn new(gpu: &Gpu, world: &World) -> Result<Self, ReflectError> {
-        Ok(Self {
-            gbuffer: GBuffer::new(gpu, world)?,
-            depth: target(gpu, "depth of the mirrors alone", world.size, DEPTH),
-        })
-    }
-
-    /// Draws every mirror.
-    pub(crate) fn record(&self, frame: &mut Recorder<'_>, world: &World) {
-        (self.gbuffer).record(frame, world, (&self.depth, Begin::Clear));
     }
 }
 

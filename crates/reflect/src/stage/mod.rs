@@ -5,6 +5,7 @@ pub(crate) mod composite;
 pub(crate) mod extent;
 pub(crate) mod gbuffer;
 mod geometry;
+pub(crate) mod maps;
 pub(crate) mod mirror;
 pub(crate) mod options;
 pub(crate) mod points;
@@ -25,7 +26,8 @@ use crate::gpu::{Begin, Gpu, Recorder};
 use crate::stage::variant::Variant;
 use composite::{Composite, Reflections};
 use gbuffer::GBuffer;
-use options::{StageOptions, Surface, Under};
+use maps::WholeMaps;
+use options::{Occluders, SearchOptions, StageOptions, Surface, Under};
 use primary::Primary;
 use world::World;
 
@@ -35,6 +37,8 @@ pub(crate) struct Stage {
     pub world: World,
     pub primary: Primary,
     pub gbuffer: GBuffer,
+    /// What searches read; `None`: the G-buffer.
+    whole: Option<WholeMaps>,
     pub reflections: Reflections,
     composite: Composite,
 }
@@ -59,16 +63,47 @@ impl Stage {
             world,
             primary,
             gbuffer,
+            whole: None,
             reflections,
             composite,
         })
+    }
+
+    /// With the maps that a search reads.
+    pub(crate) fn searched(
+        gpu: &Gpu,
+        options: &SearchOptions,
+        scene: &Scene,
+        size: [u32; 2],
+    ) -> Result<Self, ReflectError> {
+        let mut stage = Self::new(gpu, options.stage, scene, size)?;
+        if options.occluders == Occluders::Ignore {
+            stage.whole = Some(WholeMaps::new(gpu, &stage.world)?);
+            gpu.check()?;
+        }
+        Ok(stage)
+    }
+
+    /// What a search reads: position and normal of the mirror whose maps were recorded last.
+    pub(crate) fn maps(&self) -> &GBuffer {
+        let whole = self.whole.as_ref();
+        whole.map_or(&self.gbuffer, |whole| &whole.gbuffer)
+    }
+
+    /// Records the maps of a mirror (an index), where they are not the G-buffer's. They hold until
+    /// those of another mirror are recorded.
+    pub(crate) fn record_maps(&self, frame: &mut Recorder<'_>, mirror: usize) {
+        if let Some(whole) = &self.whole {
+            whole.record(frame, &self.world, mirror);
+        }
     }
 
     /// Primary picture and mirror G-buffer.
     pub(crate) fn begin(&self, frame: &mut Recorder<'_>, variant: Variant) {
         self.primary.record(frame, &self.world, variant);
         let depth = (&self.primary.depth, Begin::Keep);
-        self.gbuffer.record(frame, &self.world, depth);
+        let all = 0..self.world.mirrors.len();
+        (self.gbuffer).record(frame, "gbuffer", &self.world, all, depth);
     }
 
     /// The picture with its reflections.

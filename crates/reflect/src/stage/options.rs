@@ -49,6 +49,16 @@ words! {
 }
 
 words! {
+    /// What surfaces before a mirror do to the maps that searches read.
+    pub(crate) enum Occluders {
+        /// Nothing: each mirror's maps are its own, and whole (Szabo 2013, Alg. 3.1).
+        Ignore = "ignore",
+        /// Searches read what the picture shows of the mirrors.
+        Cut = "cut",
+    }
+}
+
+words! {
     /// What is drawn of the virtual triangles.
     pub(crate) enum Show {
         Shaded = "shaded",
@@ -66,6 +76,9 @@ options! {
         /// triangles with a hidden vertex are dropped, or drawn with the vertex continued behind
         /// the tangent plane unless all three are hidden
         hidden: Hidden,
+        /// searches walk on each mirror's whole maps, as if nothing stood before it, or on maps
+        /// cut by the objects and mirrors before it
+        occluders: Occluders,
         /// the reflected surfaces, those with the edges of the virtual triangles, or how often each
         /// was split
         show: Show,

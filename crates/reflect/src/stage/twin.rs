@@ -6,7 +6,6 @@ use glam::{IVec2, Vec3, Vec4};
 
 use crate::gpu::Gpu;
 use crate::stage::Stage;
-use crate::stage::gbuffer::{self, MirrorsAlone};
 
 /// `shared/mirror.wesl`: the G-buffer of one mirror.
 pub(crate) struct GBuffer {
@@ -21,19 +20,10 @@ pub(crate) struct GBuffer {
 const SIDE_BACK: f32 = 2.0;
 
 impl GBuffer {
-    /// The G-buffer of the frame rendered last, as `mirror` (an index) sees it.
+    /// The maps that searches on `mirror` (an index) read, in the frame rendered last.
     pub(crate) fn read(gpu: &Gpu, stage: &Stage, mirror: usize) -> Self {
-        Self::copy(gpu, stage, &stage.gbuffer, mirror)
-    }
-
-    /// As if no object stood before the mirrors.
-    pub(crate) fn alone(gpu: &Gpu, stage: &Stage, mirror: usize) -> Self {
-        let alone = MirrorsAlone::new(gpu, &stage.world).expect("fits the device");
-        gpu.run(|frame| alone.record(frame, &stage.world));
-        Self::copy(gpu, stage, &alone.gbuffer, mirror)
-    }
-
-    fn copy(gpu: &Gpu, stage: &Stage, gbuffer: &gbuffer::GBuffer, mirror: usize) -> Self {
+        gpu.run(|frame| stage.record_maps(frame, mirror));
+        let gbuffer = stage.maps();
         let read = |texture| {
             let texels = gpu.read_texture(texture);
             texels.into_iter().map(Vec4::from_array).collect()

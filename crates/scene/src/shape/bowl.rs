@@ -82,6 +82,11 @@ impl MirrorShape for Bowl {
         self.center
     }
 
+    /// Halfway between the plane of the rim and the farthest point on the axis.
+    fn middle(&self) -> DVec3 {
+        self.center + self.axis * self.radius * (0.5 + 0.5 * self.half_angle.cos())
+    }
+
     fn bounds(&self) -> (DVec3, DVec3) {
         (self.center - self.radius, self.center + self.radius)
     }

@@ -26,6 +26,12 @@ pub trait MirrorShape {
     /// the bounding box for a mesh.
     fn center(&self) -> DVec3;
 
+    /// The point whose projection stands for the middle of the mirror's: the centre, unless the
+    /// surface lies all to one side of it, as a bowl's.
+    fn middle(&self) -> DVec3 {
+        self.center()
+    }
+
     /// Corners of the smallest axis-parallel box around the surface (for a bowl: around its
     /// whole sphere).
     fn bounds(&self) -> (DVec3, DVec3);

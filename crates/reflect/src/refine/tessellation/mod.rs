@@ -97,6 +97,10 @@ impl Tessellation {
             .flat_map(|object| object.mesh.positions.iter().copied())
             .collect();
         let totals = gpu.read_buffer(self.passes.totals_buffer());
+        gpu.run(|frame| {
+            stage.record_maps(frame, mirror);
+            search.record_build(frame, stage, mirror);
+        });
         for chunk in 0..self.plan.chunks().count() {
             gpu.run(|frame| {
                 let variant = Variant::Color;
@@ -141,6 +145,10 @@ impl Refine for Tessellation {
     fn begin_frame(&mut self, gpu: &Gpu, stage: &Stage, warm: bool) {
         self.scene_vertices.begin_frame(gpu, stage, warm);
         self.passes.begin_frame(gpu);
+    }
+
+    fn reads_maps(&self) -> bool {
+        self.passes.judges()
     }
 
     fn record(

@@ -168,6 +168,11 @@ impl Passes {
         })
     }
 
+    /// Whether it looks up the mirror's normals.
+    pub(super) fn judges(&self) -> bool {
+        self.judges
+    }
+
     pub(super) fn begin_frame(&self, gpu: &Gpu) {
         for buffer in [&self.buffers.totals, &self.buffers.effort_sums] {
             let zeros = vec![0; buffer.size() as usize];
@@ -210,7 +215,7 @@ impl Passes {
             let groups = LEVEL_STRIDE * u64::from(level);
             frame.compute("refine", |pass| {
                 pass.set_bind_group(0, &stage.world.view_group, &[]);
-                pass.set_bind_group(1, &stage.gbuffer.mirror_groups[mirror], &[]);
+                pass.set_bind_group(1, &stage.maps().mirror_groups[mirror], &[]);
                 pass.set_bind_group(2, &self.answers[mirror], &[]);
                 pass.set_bind_group(3, classify, &[]);
                 pass.set_pipeline(&self.kernels.classify.kernel);
@@ -239,7 +244,7 @@ impl Passes {
         if counts && self.judges {
             frame.compute("count", |pass| {
                 pass.set_bind_group(0, &stage.world.view_group, &[]);
-                pass.set_bind_group(1, &stage.gbuffer.mirror_groups[mirror], &[]);
+                pass.set_bind_group(1, &stage.maps().mirror_groups[mirror], &[]);
                 pass.set_bind_group(2, &self.answers[mirror], &[]);
                 pass.set_bind_group(3, &self.judged, &[]);
                 pass.set_pipeline(&self.kernels.judge.kernel);

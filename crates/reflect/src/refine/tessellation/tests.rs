@@ -53,6 +53,8 @@ impl Tessellated {
             for mirror in 0..searched.stage.world.mirrors.len() {
                 let search = searched.search.as_ref();
                 let variant = Variant::AllLayers;
+                searched.stage.record_maps(frame, mirror);
+                search.record_build(frame, &searched.stage, mirror);
                 tessellation.record(frame, &searched.stage, search, mirror, variant);
             }
         });
@@ -96,7 +98,7 @@ fn same(a: &Output, b: &Output) -> bool {
 #[test]
 fn threshold_0_is_full_and_1_is_none() {
     let Some(gpu) = gpu_or_skip() else { return };
-    let scene = scene("sphere-square");
+    let scene = scene("sphere-square-hidden");
     let full = output(&gpu, &scene, "linear+full(level=4)");
     let zero = output(&gpu, &scene, "linear+adaptive(level=4,threshold=0)");
     let triangles = |output: &Output| output.triangles.clone().expect("counted");
@@ -213,7 +215,7 @@ fn pieces_lie_in_their_source() {
 #[test]
 fn only_what_is_hidden_by_all_corners_stops_early() {
     let Some(gpu) = gpu_or_skip() else { return };
-    let scene = scene("sphere-square");
+    let scene = scene("sphere-square-hidden");
     let made = Tessellated::new(&gpu, &scene, "linear+full(level=4)", SIZE);
     let leaves = made.leaves(&gpu, 0);
     let early = leaves.iter().filter(|leaf| leaf.piece.level < 4);
@@ -228,7 +230,7 @@ fn only_what_is_hidden_by_all_corners_stops_early() {
 #[test]
 fn triangles_whose_corners_have_no_answer_are_split() {
     let Some(gpu) = gpu_or_skip() else { return };
-    let mut scene = scene("sphere-square");
+    let mut scene = scene("sphere-square-hidden");
     // A floor so wide that all its corners are reflected outside the picture.
     for position in &mut scene.objects[0].mesh.positions {
         let middle = Vec3::new(0.1, 0.0, 0.7);
@@ -248,7 +250,7 @@ fn triangles_whose_corners_have_no_answer_are_split() {
 #[test]
 fn every_search_goes_with_every_refinement() {
     let Some(gpu) = gpu_or_skip() else { return };
-    let scene = scene("sphere-square");
+    let scene = scene("sphere-square-hidden");
     for search in ["linear", "ray-hierarchy", "reflector-cubemap", "newton"] {
         for refinement in ["full(level=2)", "adaptive(level=2)", "grid"] {
             let spec = parse(&format!("{search}+{refinement}")).expect("a technique");
@@ -281,7 +283,7 @@ fn the_edge_error_is_the_one_computed_by_hand() {
 #[test]
 fn a_previous_frame_helps_the_scenes_own_vertices_alone() {
     let Some(gpu) = gpu_or_skip() else { return };
-    let scene = scene("sphere-square");
+    let scene = scene("sphere-square-hidden");
     let spec = parse("linear(start=previous)+full(level=1)").expect("a technique");
     let mut prepared = prepare(&gpu, &spec, &scene, SIZE).expect("fits the device");
     let [first, second] = [(); 2].map(|()| prepared.render().expect("renders"));
@@ -296,7 +298,7 @@ fn a_previous_frame_helps_the_scenes_own_vertices_alone() {
 #[test]
 fn t_junctions_are_those_of_what_is_drawn_where_hidden_corners_are_continued() {
     let Some(gpu) = gpu_or_skip() else { return };
-    let scene = scene("sphere-square");
+    let scene = scene("sphere-square-hidden");
     let adaptive = "+adaptive(level=5,threshold=0.00003)";
     for (hidden, continues) in [("drop", false), ("extend", true)] {
         let technique = format!("linear(hidden={hidden}){adaptive}");
@@ -332,7 +334,7 @@ fn t_junctions_are_those_of_what_is_drawn_where_hidden_corners_are_continued() {
 #[test]
 fn neighbours_that_split_differently_meet_in_t_junctions() {
     let Some(gpu) = gpu_or_skip() else { return };
-    let scene = scene("sphere-square");
+    let scene = scene("sphere-square-hidden");
     let adaptive = output(&gpu, &scene, "linear+adaptive(level=5,threshold=0.00003)");
     assert!(adaptive.t_junctions.is_some_and(|count| count > 0));
     assert_eq!(

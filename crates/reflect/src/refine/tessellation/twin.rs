@@ -261,7 +261,7 @@ mod tests {
         let Some(gpu) = gpu_or_skip() else { return };
         check(
             &gpu,
-            "sphere-square",
+            "sphere-square-hidden",
             "level=6,threshold=0.00001",
             [320, 240],
         );

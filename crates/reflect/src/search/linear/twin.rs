@@ -124,14 +124,9 @@ mod tests {
         let (mut same, mut count) = (0, 0);
         for (mirror, points) in searched.batches.iter().enumerate() {
             let extend = options.contains("extend");
-            let read = if extend {
-                GBuffer::alone
-            } else {
-                GBuffer::read
-            };
-            let gbuffer = read(&gpu, &searched.stage, mirror);
+            let gbuffer = GBuffer::read(&gpu, &searched.stage, mirror);
             let view = scene.camera.view(size);
-            let center = scene.mirrors[mirror].shape.center();
+            let center = scene.mirrors[mirror].shape.middle();
             let (wanted, _) = view.project(center).expect("in front of the eye");
             let from = start(&gbuffer, wanted.as_vec2()).expect("the mirror is in view");
             let walk = Walk {
@@ -164,6 +159,7 @@ mod tests {
             ("prototype-bowl", "residual=cross", [256, 256]),
             ("sphere-objects-20k", "neighbours=8", [160, 120]),
             ("spheres", "residual=dot", [160, 120]),
+            ("spheres", "occluders=cut", [160, 120]),
             ("sphere-touching", "hidden=extend", [160, 120]),
             ("kitchen", "hidden=extend,residual=cross", [160, 120]),
         ] {

@@ -13,14 +13,12 @@ pub(crate) mod pyramid;
 #[cfg(test)]
 mod twin;
 
-use std::cell::Cell;
-
 use catoptric_scene::Scene;
 use encase::ShaderType;
 
 use super::{Context, Pipelines, Recipe, Search};
 use crate::error::ReflectError;
-use crate::gpu::{Gpu, Recorder, Slot, group, layout, uniform, view};
+use crate::gpu::{Recorder, Slot, group, layout, uniform, view};
 use crate::options::{options, words};
 use crate::stage::Stage;
 use crate::stage::options::{Hidden, SearchOptions};
@@ -129,7 +127,6 @@ impl Recipe for RayHierarchy {
             Repair::Stop => &["stop"],
         };
         Ok(Box::new(Descent {
-            built: Cell::new(None),
             pipelines: Pipelines::new(context, "ray_hierarchy/search", features, &own_layout)?,
             own: group(gpu, &own_layout, &own),
             pyramid,
@@ -139,21 +136,18 @@ impl Recipe for RayHierarchy {
 
 /// The search, ready for a scene.
 struct Descent {
+    /// One serves all mirrors in turn.
     pyramid: Pyramid,
-    /// The mirror (an index) whose pyramid this frame has made last: one pyramid serves all
-    /// mirrors in turn.
-    built: Cell<Option<usize>>,
     pipelines: Pipelines,
     /// Group 3: pyramid and repair.
     own: wgpu::BindGroup,
 }
 
 impl Search for Descent {
-    fn begin_frame(&mut self, _gpu: &Gpu) {
-        self.built.set(None);
+    fn record_build(&self, frame: &mut Recorder<'_>, stage: &Stage, mirror: usize) {
+        self.pyramid.record(frame, stage, mirror);
     }
 
-    /// The pyramid is made when a mirror is searched first.
     fn record_search(
         &self,
         frame: &mut Recorder<'_>,
@@ -162,11 +156,7 @@ impl Search for Descent {
         points: &Points,
         variant: Variant,
     ) {
-        if self.built.replace(Some(mirror)) != Some(mirror) {
-            self.pyramid.record(frame, stage, mirror);
-        }
-        let on = &stage.gbuffer.mirror_groups[mirror];
-        (self.pipelines).record(frame, (stage, on), points, &self.own, variant);
+        (self.pipelines).record(frame, (stage, mirror), points, &self.own, variant);
     }
 }
 

@@ -77,7 +77,7 @@ impl Pyramid {
         frame.compute("hierarchy", |pass| {
             pass.set_pipeline(&self.base);
             pass.set_bind_group(0, &stage.world.view_group, &[]);
-            pass.set_bind_group(1, &stage.gbuffer.mirror_groups[mirror], &[]);
+            pass.set_bind_group(1, &stage.maps().mirror_groups[mirror], &[]);
             pass.set_bind_group(2, &self.written[0], &[]);
             let [x, y] = groups(&self.base, 0);
             pass.dispatch_workgroups(x, y, 1);

@@ -379,6 +379,7 @@ mod tests {
             for mirror in 0..scene.mirrors.len() {
                 let on_gpu = OnGpu::new(&gpu, &searched.stage).expect("fits the device");
                 gpu.run(|frame| {
+                    searched.stage.record_maps(frame, mirror);
                     on_gpu.record(frame, &searched.stage, mirror);
                 });
                 let twin = Pyramid::build(&GBuffer::read(&gpu, &searched.stage, mirror));
@@ -452,6 +453,7 @@ mod tests {
             ("prototype-bowl", "repair=enlarge,cone=1.2", [160, 120]),
             ("prototype-bowl", "repair=enlarge,again=last", [160, 120]),
             ("spheres", "repair=none", [160, 120]),
+            ("sphere-touching", "occluders=cut", [160, 120]),
         ] {
             let (share, work, count) = agreement(&gpu, name, options, size);
             assert!(count > 500, "{name}: only {count} vertices");

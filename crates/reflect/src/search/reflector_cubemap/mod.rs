@@ -187,6 +187,11 @@ impl Search for InMaps {
         }
     }
 
+    /// It has maps of its own.
+    fn reads_maps(&self) -> bool {
+        false
+    }
+
     fn record_search(
         &self,
         frame: &mut Recorder<'_>,
@@ -196,7 +201,6 @@ impl Search for InMaps {
         variant: Variant,
     ) {
         let own = &self.mirrors[mirror].group;
-        let on = &stage.gbuffer.mirror_groups[mirror];
-        (self.pipelines).record(frame, (stage, on), points, own, variant);
+        (self.pipelines).record(frame, (stage, mirror), points, own, variant);
     }
 }

@@ -113,6 +113,9 @@ impl Traced {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Work {
+    /// Looks at all that is looked at, whatever for: evaluations, node tests and samples together, so
+    /// that techniques of unlike kinds can be compared.
+    pub total: Option<f64>,
     /// Uses of the error function; of traced rays, triangles tested.
     pub evaluations: Option<f64>,
     /// Moves of an iterative search.
@@ -127,4 +130,16 @@ pub struct Work {
     pub samples: Option<f64>,
     /// Steps skipped by an acceleration structure.
     pub skips: Option<f64>,
+}
+
+impl Work {
+    /// With the total of its parts.
+    #[must_use]
+    pub fn summed(self) -> Self {
+        let parts = [self.evaluations, self.node_tests, self.samples];
+        Self {
+            total: parts.into_iter().flatten().reduce(|a, b| a + b),
+            ..self
+        }
+    }
 }

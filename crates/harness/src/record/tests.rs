@@ -105,6 +105,7 @@ pub fn measured(scene: &str, technique: &str) -> Record {
             unfinished: 0,
         }),
         work: Some(Work {
+            total: Some(400.5),
             evaluations: Some(400.5),
             steps: Some(99.0),
             node_tests: Some(0.0),

@@ -63,7 +63,7 @@ pub fn record(
     row.meta.notes.extend(compared.no_exact);
     row.meta.notes.extend(rendered.output.notes.iter().cloned());
     row.triangles = rendered.output.triangles.clone();
-    row.work = Some(rendered.output.work);
+    row.work = Some(rendered.output.work.summed());
     row.resolved_by = rendered.traced.as_ref().map(|traced| {
         let pixels = traced.pixels().max(1) as f64;
         let shares = traced.resolved_by.iter();

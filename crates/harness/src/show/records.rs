@@ -35,7 +35,7 @@ const SHORT: [&str; 11] = [
     "vertices.offset_px.mean",
     "vertices.failed",
     "color.flip",
-    "work.evaluations",
+    "work.total",
     "time_ms.frame.median",
     "time_ms.wall.median",
 ];

@@ -17,7 +17,7 @@ const COLUMNS: [&str; 7] = [
     "angular_error_deg.p50",
     "vertices.offset_px.mean",
     "color.flip",
-    "work.evaluations",
+    "work.total",
     "time_ms.frame.median",
 ];
 

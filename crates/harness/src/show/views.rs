@@ -39,7 +39,7 @@ const SUMMARY: [&str; 9] = [
     "angular_error_deg.p99",
     "vertices.offset_px.mean",
     "color.flip",
-    "work.evaluations",
+    "work.total",
     "time_ms.frame.median",
 ];
 
@@ -170,8 +170,8 @@ fn cells(row: &Record) -> Vec<String> {
         let number = lookup(&value, path).and_then(Value::as_f64);
         match (*path, metrics::known(path).unit) {
             ("time_ms.frame.median", _) => time(row),
-            // What a technique without vertices evaluates is another thing.
-            ("work.evaluations", _) if row.vertices.is_none() => or_dash(None),
+            // What a technique without vertices looks at is another thing.
+            ("work.total", _) if row.vertices.is_none() => or_dash(None),
             (_, Unit::Share) => share(number),
             _ => or_dash(number),
         }
@@ -304,10 +304,11 @@ fn passes(passes: &[(String, f64)]) -> Vec<Pass> {
 }
 
 /// Counted work, which is the same on every adapter.
-const WORK: [&str; 10] = [
+const WORK: [&str; 11] = [
     "vertices.searched",
     "vertices.reflected",
     "vertices.failed",
+    "work.total",
     "work.evaluations",
     "work.steps",
     "work.node_tests",
@@ -326,7 +327,7 @@ fn work(row: &Record) -> Vec<Fact> {
     let fact = |path: &&str| {
         let number = lookup(&value, path).filter(|number| number.is_number())?;
         let name = &metrics::known(path).name;
-        let each = ["work.evaluations", "work.steps", "work.node_tests"].contains(path);
+        let each = ["work.total", "work.evaluations", "work.steps", "work.node_tests"].contains(path);
         Some(Fact {
             name: match each {
                 true => format!("{name} a {per}"),

@@ -153,17 +153,14 @@ fn vertices(row: &Record) -> Option<String> {
 
 fn cost(row: &Record) -> Option<String> {
     let times = row.time_ms.as_ref()?;
-    let work = row
-        .work
-        .and_then(|work| work.evaluations)
-        .map_or_else(String::new, |evaluations| {
-            let one = match row.vertices {
-                Some(_) => "searched vertex takes {} evaluations of the error function",
-                None => "mirror pixel takes {} evaluations",
-            };
-            let one = one.replace("{}", &short(evaluations));
-            format!(" Each {one} on average.")
-        });
+    let work = row.work.and_then(|work| match row.vertices {
+        Some(_) => Some(("search looks at {} texels", work.total?)),
+        None => Some(("mirror pixel takes {} evaluations", work.evaluations?)),
+    });
+    let work = work.map_or_else(String::new, |(one, count)| {
+        let one = one.replace("{}", &short(count));
+        format!(" Each {one} on average.")
+    });
     let Some(frame) = times.frame else {
         return Some(format!(
             "A frame takes {} ms by the wall clock.{work}",

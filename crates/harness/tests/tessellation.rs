@@ -49,3 +49,18 @@ fn the_published_rule_tears_the_surface() {
         (Some(0), Some(0))
     );
 }
+
+/// Szabo 2013, Fig. 6.3: "adaptive never exceeds level 2" at the threshold 0.001.
+#[test]
+fn the_published_threshold_splits_the_square_twice() {
+    if !gpu_or_skip() {
+        return;
+    }
+    let techniques = ["linear+adaptive(level=5,threshold=0.001)"];
+    let rows = measured(&["sphere-square"], &techniques, None, 0.01);
+    let levels = rows[0]["triangles"]["by_level"].as_array().expect("levels");
+    let drawn: Vec<_> = levels.iter().map(|count| count.as_u64()).collect();
+    assert!(drawn[2] > Some(0), "{drawn:?}");
+    assert!(drawn[3..].iter().all(|count| *count == Some(0)), "{drawn:?}");
+    assert_eq!(rows[0]["vertices"]["hidden"], 0);
+}

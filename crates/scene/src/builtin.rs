@@ -30,8 +30,9 @@ macro_rules! scenes {
 }
 
 /// Scenes with a file of their own.
-const SCENES: [(&str, &str); 22] = scenes![
+const SCENES: [(&str, &str); 23] = scenes![
     "sphere-square",
+    "sphere-square-hidden",
     "sphere-objects-1k",
     "sphere-objects-20k",
     "spheres",
@@ -77,7 +78,10 @@ const GRID_SIZES: &[(&str, &str)] = &[
     ("100k", "315"),
 ];
 
-const FAMILIES: [Family; 4] = [
+/// Those of scenes that are looked at beside a family.
+const FEW_SIZES: &[(&str, &str)] = &[("1k", "31"), ("10k", "99")];
+
+const FAMILIES: [Family; 6] = [
     Family {
         prefix: "sphere-grid-full-",
         template: include_str!("../../../scenes/template-sphere-grid-full.toml"),
@@ -89,6 +93,18 @@ const FAMILIES: [Family; 4] = [
         template: include_str!("../../../scenes/template-sphere-grid.toml"),
         line: ("n", "8"),
         sizes: GRID_SIZES,
+    },
+    Family {
+        prefix: "sphere-grid-full-hidden-",
+        template: include_str!("../../../scenes/template-sphere-grid-full-hidden.toml"),
+        line: ("n", "8"),
+        sizes: FEW_SIZES,
+    },
+    Family {
+        prefix: "sphere-grid-hidden-",
+        template: include_str!("../../../scenes/template-sphere-grid-hidden.toml"),
+        line: ("n", "8"),
+        sizes: FEW_SIZES,
     },
     Family {
         prefix: "sphere-drawn-",

@@ -19,6 +19,9 @@ pub const SEARCHES: [(&str, &str); 5] = [
     (STOPPED, "ray-hierarchy(repair=stop)"),
 ];
 
+/// On the published maps: what the rasterizer interpolates between a mesh's corners.
+pub const MESH: (&str, &str) = ("linear, mirror as a mesh", "linear(gbuffer=mesh)");
+
 /// The scenes of Fig. 4.3, by letter; the first two with their number of vertices.
 pub const CASES: [(&str, &str); 4] = [
     ("a: 20 000", "sphere-objects-20k"),

@@ -25,6 +25,7 @@ pub const PAPERS: &str = "Core 2 Duo, GTX 260";
 
 /// How both papers judged pictures.
 pub const BY_EYE: &str = "judged by eye";
+pub const MESH: &str = "adaptive, mirror as a mesh";
 pub const NONE: &str = "none";
 pub const FULL: &str = "full";
 pub const ADAPTIVE: &str = "adaptive";
@@ -35,6 +36,14 @@ pub fn full(level: u32) -> String {
 
 pub fn adaptive(level: u32, threshold: &str) -> String {
     format!("linear+adaptive(level={level},threshold={threshold})")
+}
+
+/// Adaptive on the published maps: what the rasterizer interpolates between a mesh's corners.
+pub fn adaptive_on_mesh(levels: u32, point: impl Fn(f64, String) -> Point) -> Series {
+    let technique =
+        |level: u32| format!("linear(gbuffer=mesh)+adaptive(level={level},threshold={THRESHOLD})");
+    let points = (0..=levels).map(|level| point(f64::from(level), technique(level)));
+    Series::new(MESH, points)
 }
 
 /// None, full and adaptive against the level limit.

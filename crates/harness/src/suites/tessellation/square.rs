@@ -10,8 +10,8 @@ use crate::suites::results::Results;
 use crate::suites::series::{Ask, Point, Series};
 
 use super::data::{
-    ADAPTIVE, BY_EYE, FULL, NONE, PAPERS, THRESHOLD, WHOLE_PIXELS, adaptive, full, quantities,
-    spared, three_modes, verdict,
+    ADAPTIVE, BY_EYE, FULL, NONE, PAPERS, THRESHOLD, WHOLE_PIXELS, adaptive, adaptive_on_mesh, full,
+    quantities, spared, three_modes, verdict,
 };
 
 /// Level limits: those of Fig. 6.3, and on to triangles smaller than pixels.
@@ -82,14 +82,18 @@ pub fn by_level(scene: &str) -> Figure {
         title: "Cost and error against the level limit".to_owned(),
         after: "Szabo 2013, Fig. 6.3",
         question: format!(
-            "A square of two triangles under a mirror sphere (or the scene asked for), split at most so \
+            "A square of two triangles before a mirror sphere (or the scene asked for), split at most so \
              often; full splits all but what is hidden by all its corners, adaptive \
              where the edge error reaches {THRESHOLD}. The line across the angular errors is what an \
              answer in whole pixels is off by: the median angle between what a pixel's centre and the \
              rest of that pixel truly show."
         ),
         axis: Axis::linear("level limit"),
-        series: three_modes(LEVELS, |x, technique| Point::new(x, scene, technique)),
+        series: {
+            let point = |x, technique| Point::new(x, scene, technique);
+            let all = three_modes(LEVELS, point).into_iter();
+            all.chain([adaptive_on_mesh(LEVELS, point)]).collect()
+        },
         quantities: vec![
             Quantity::log(FRAME_MS),
             Quantity::log(SEARCHED),

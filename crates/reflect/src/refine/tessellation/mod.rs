@@ -2,7 +2,8 @@
 //!
 //! A loop on the GPU, without read-back: judge the triangles being worked on, finish them or split
 //! them into four, search the new points, and again, until the level limit; then draw what is
-//! finished and what is left over. A scene is worked off in chunks of its triangles ([`Plan`]),
+//! finished and what is left over. Only new points are searched, three a split triangle, where Alg. 3 of
+//! the CESCG paper searches all twelve corners of the four parts anew: the same answers. A scene is worked off in chunks of its triangles ([`Plan`]),
 //! each drawn before the next. Slots come from prefix sums, so that neither pictures nor counts
 //! depend on the order in which threads run.
 

@@ -27,7 +27,7 @@ use crate::stage::variant::Variant;
 use composite::{Composite, Reflections};
 use gbuffer::GBuffer;
 use maps::WholeMaps;
-use options::{Occluders, SearchOptions, StageOptions, Surface, Under};
+use options::{Occluders, SearchOptions, StageOptions, Surface};
 use primary::Primary;
 use world::World;
 
@@ -51,8 +51,7 @@ impl Stage {
         size: [u32; 2],
     ) -> Result<Self, ReflectError> {
         let exact = options.gbuffer == Surface::Exact;
-        let dark = options.under == Under::Dark;
-        let world = World::new(gpu, scene, size, exact, dark)?;
+        let world = World::new(gpu, scene, size, exact, options.under)?;
         let primary = Primary::new(gpu, &world)?;
         let gbuffer = GBuffer::new(gpu, &world)?;
         let reflections = Reflections::new(gpu, size);

@@ -13,8 +13,12 @@ words! {
 words! {
     /// What a mirror shows where no reflection is drawn.
     pub(crate) enum Under {
+        /// The background in the reflected direction.
         Background = "background",
+        /// Black.
         Dark = "dark",
+        /// A grey surface, lit from the eye: the mirror drawn as if it were none.
+        Solid = "solid",
     }
 }
 
@@ -23,7 +27,8 @@ options! {
     pub(crate) struct StageOptions {
         /// mirror points by analytic intersection, or of the drawn triangles
         gbuffer: Surface,
-        /// what a mirror shows where no reflection is drawn
+        /// what a mirror shows where no reflection is drawn: the background in the reflected
+        /// direction, black, or a grey surface lit from the eye
         under: Under,
     }
 }

@@ -5,6 +5,7 @@ use encase::ShaderType;
 use glam::{UVec2, Vec3};
 
 use super::extent::diagonal;
+use super::options::Under;
 
 /// Twin of `shared/view.wesl`.
 #[derive(Clone, Copy, Debug, ShaderType)]
@@ -29,11 +30,10 @@ pub(crate) struct ViewUniform {
 const NEAR: f32 = 1e-3;
 
 impl ViewUniform {
-    /// The scene's camera. `dark`: mirrors are black where no reflection is drawn.
-    pub(crate) fn new(scene: &Scene, size: [u32; 2], dark: bool) -> Self {
-        let under = u32::from(dark);
+    /// The scene's camera.
+    pub(crate) fn new(scene: &Scene, size: [u32; 2], under: Under) -> Self {
         Self {
-            under,
+            under: under as u32,
             ..Self::from_view(scene, &scene.camera.view(size))
         }
     }

@@ -8,6 +8,7 @@ use crate::error::ReflectError;
 use crate::gpu::{Gpu, Slot, buffer, group, layout, set_uniform, storage, storage_bytes, uniform};
 use crate::stage::geometry::{Geometry, positions};
 use crate::stage::mirror::MirrorUniform;
+use crate::stage::options::Under;
 use crate::stage::view::ViewUniform;
 
 /// A scene on the GPU, for one image size.
@@ -20,7 +21,7 @@ pub(crate) struct World {
     pub view_layout: wgpu::BindGroupLayout,
     pub view_group: wgpu::BindGroup,
     view: wgpu::Buffer,
-    dark: bool,
+    under: Under,
     /// Group 2 of passes that draw objects: `shared/surface.wesl`.
     pub surface_layout: wgpu::BindGroupLayout,
     pub surface_group: wgpu::BindGroup,
@@ -113,14 +114,13 @@ impl MirrorPipelines {
 }
 
 impl World {
-    /// Puts a scene on the GPU. `exact`: mirrors are intersected by each eye ray; `dark`: mirrors are
-    /// black where no reflection is drawn.
+    /// Puts a scene on the GPU. `exact`: mirrors are intersected by each eye ray.
     pub(crate) fn new(
         gpu: &Gpu,
         scene: &Scene,
         size: [u32; 2],
         exact: bool,
-        dark: bool,
+        under: Under,
     ) -> Result<Self, ReflectError> {
         let limit = gpu.device.limits().max_texture_dimension_2d;
         if size[0].max(size[1]) > limit || size[0].min(size[1]) == 0 {
@@ -128,7 +128,7 @@ impl World {
         }
         let geometry = Geometry::new(scene);
         let view_layout = layout(gpu, "view", &[Slot::Uniform]);
-        let view = uniform(gpu, &ViewUniform::new(scene, size, dark));
+        let view = uniform(gpu, &ViewUniform::new(scene, size, under));
         let surface_layout = layout(gpu, "surface", &[Slot::Read; 4]);
         let positions = storage_bytes(gpu, bytemuck::cast_slice(&geometry.positions));
         let surface_group = group(
@@ -179,7 +179,7 @@ impl World {
             view_group: group(gpu, &view_layout, &[view.as_entire_binding()]),
             view_layout,
             view,
-            dark,
+            under,
             surface_layout,
             surface_group,
             positions,
@@ -205,7 +205,7 @@ impl World {
         set_uniform(
             gpu,
             &self.view,
-            &ViewUniform::new(scene, self.size, self.dark),
+            &ViewUniform::new(scene, self.size, self.under),
         );
         let positions = positions(scene);
         gpu.queue

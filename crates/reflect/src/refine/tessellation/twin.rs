@@ -156,6 +156,7 @@ mod tests {
     use super::*;
     use crate::gpu::{Gpu, storage_bytes};
     use crate::refine::tessellation::tests::Tessellated;
+    use crate::stage::options::Under;
     use crate::stage::points::{Points, points_layout};
     use crate::stage::twin::vertices;
     use crate::stage::variant::Variant;
@@ -186,7 +187,7 @@ mod tests {
         let searched = &gpus.searched;
         let gbuffer = GBuffer::read(gpu, &searched.stage, 0);
         let twin = Tessellation {
-            view: ViewUniform::new(&scene, size, false),
+            view: ViewUniform::new(&scene, size, Under::Background),
             gbuffer: &gbuffer,
             threshold: gpus.rule.threshold.expect("adaptive"),
             level: gpus.rule.level,

@@ -34,5 +34,8 @@ fn a_mirror_before_another_cuts_nothing_either() {
         panic!("{} rows", rows.len())
     };
     let offset = |row| number(row, "/vertices/offset_px/mean");
-    assert!(offset(whole) < 1.0 && offset(whole) < offset(cut), "{rows:#?}");
+    assert!(
+        offset(whole) < 1.0 && offset(whole) < offset(cut),
+        "{rows:#?}"
+    );
 }

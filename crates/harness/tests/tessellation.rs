@@ -61,6 +61,9 @@ fn the_published_threshold_splits_the_square_twice() {
     let levels = rows[0]["triangles"]["by_level"].as_array().expect("levels");
     let drawn: Vec<_> = levels.iter().map(|count| count.as_u64()).collect();
     assert!(drawn[2] > Some(0), "{drawn:?}");
-    assert!(drawn[3..].iter().all(|count| *count == Some(0)), "{drawn:?}");
+    assert!(
+        drawn[3..].iter().all(|count| *count == Some(0)),
+        "{drawn:?}"
+    );
     assert_eq!(rows[0]["vertices"]["hidden"], 0);
 }

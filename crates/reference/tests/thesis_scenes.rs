@@ -50,5 +50,9 @@ fn the_reflection_covers_the_viewport() {
     let reflected = frame.reflected.expect("layers");
     let pixels = reflected.id.pixels();
     let shown = pixels.iter().filter(|id| **id != 0).count();
-    assert!(shown * 100 >= pixels.len() * 95, "{shown} of {}", pixels.len());
+    assert!(
+        shown * 100 >= pixels.len() * 95,
+        "{shown} of {}",
+        pixels.len()
+    );
 }

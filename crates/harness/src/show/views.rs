@@ -327,7 +327,13 @@ fn work(row: &Record) -> Vec<Fact> {
     let fact = |path: &&str| {
         let number = lookup(&value, path).filter(|number| number.is_number())?;
         let name = &metrics::known(path).name;
-        let each = ["work.total", "work.evaluations", "work.steps", "work.node_tests"].contains(path);
+        let each = [
+            "work.total",
+            "work.evaluations",
+            "work.steps",
+            "work.node_tests",
+        ]
+        .contains(path);
         Some(Fact {
             name: match each {
                 true => format!("{name} a {per}"),

@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use crate::error::ReflectError;
 use crate::gpu::{
-    Begin, FLOAT4, Gpu, RasterEntries, Recorder, Slot, group, layout, module, raster_to,
-    target, view,
+    Begin, FLOAT4, Gpu, RasterEntries, Recorder, Slot, group, layout, module, raster_to, target,
+    view,
 };
 use crate::stage::world::{MirrorPipelines, World};
 

@@ -134,7 +134,11 @@ mod tests {
             let dir = view.ray(at);
             let hit = scene.mirrors[0].shape.intersect(view.eye, dir, 0.0);
             let point = hit.expect("on the mirror").position - view.eye;
-            (at, point.dot(view.forward), mesh.positions[index as usize].as_dvec3())
+            (
+                at,
+                point.dot(view.forward),
+                mesh.positions[index as usize].as_dvec3(),
+            )
         };
         let reflected = output.frame.reflected.expect("layers");
         let (mut with_w, mut without, mut count) = (0.0_f64, 0.0_f64, 0);

@@ -10,8 +10,8 @@ use crate::suites::results::Results;
 use crate::suites::series::{Ask, Point, Series};
 
 use super::data::{
-    ADAPTIVE, BY_EYE, FULL, NONE, PAPERS, THRESHOLD, WHOLE_PIXELS, adaptive, adaptive_on_mesh, full,
-    quantities, spared, three_modes, verdict,
+    ADAPTIVE, BY_EYE, FULL, NONE, PAPERS, THRESHOLD, WHOLE_PIXELS, adaptive, adaptive_on_mesh,
+    full, quantities, spared, three_modes, verdict,
 };
 
 /// Level limits: those of Fig. 6.3, and on to triangles smaller than pixels.

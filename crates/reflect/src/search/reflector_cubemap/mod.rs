@@ -45,12 +45,21 @@ options! {
         /// the direction from the mirror's centre where a search starts (in a concave mirror the
         /// one against it): halfway between eye and vertex, or the eye's
         start: Start,
-        /// length of the first step, in units of the projected bisector
-        step: f64 = 0.5 in 0.05..=4.0,
+        /// length of the first step, in units of the projected bisector; 0: every step starts from the
+        /// length that fits the distances of eye and vertex, which the factors change
+        step: f64 = 0.0 in 0.0..=4.0,
         /// factor of the step length where the field changes much within a step
         shrink: f64 = 0.6 in 0.1..=1.0,
         /// factor of the step length where the field changes little within a step
         grow: f64 = 1.25 in 1.0..=4.0,
+        /// change of the field, relative to the longer of two, that is much (the paper gives no number)
+        different: f64 = 0.5 in 0.0..=2.0,
+        /// change of the field that is little (the paper gives no number)
+        similar: f64 = 0.25 in 0.0..=2.0,
+        /// least length of a step, or with step=0 least factor of the length that fits
+        least: f64 = 0.05 in 0.0..=1.0,
+        /// greatest length of a step, or with step=0 greatest factor
+        greatest: f64 = 4.0 in 1.0..=16.0,
     }
 }
 
@@ -83,12 +92,20 @@ struct Settings {
     /// Most steps.
     iterations: u32,
     /// Length of the first step; 1 moves a point of the unit sphere from the normal's tip to the
-    /// bisector's, to first order.
+    /// bisector's, to first order; 0: as long as the distances of eye and vertex allow.
     first_step: f32,
     /// Factor of the step length where the field changes much.
     shrink: f32,
     /// Factor of the step length where the field changes little.
     grow: f32,
+    /// Relative change of the field that is much.
+    different: f32,
+    /// Relative change of the field that is little.
+    similar: f32,
+    /// Shortest step.
+    least: f32,
+    /// Longest step.
+    greatest: f32,
     /// 1: start in the eye's direction, 0: at the bisector of the directions to eye and vertex.
     from_eye: u32,
     /// 1: the mirror's normals point away from its centre, −1: towards it.
@@ -109,6 +126,10 @@ impl Settings {
             first_step: options.step as f32,
             shrink: options.shrink as f32,
             grow: options.grow as f32,
+            different: options.different as f32,
+            similar: options.similar as f32,
+            least: options.least as f32,
+            greatest: options.greatest as f32,
             from_eye: u32::from(options.start == Start::Eye),
             facing,
         }

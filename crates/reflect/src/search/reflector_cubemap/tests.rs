@@ -81,6 +81,41 @@ fn the_error_falls_with_the_iterations() {
     }
 }
 
+/// Distances in pixels between the places found and the true ones of vertices that are `near` off the
+/// mirror, ascending.
+fn offsets_near(name: &str, technique: &str, near: f64) -> Vec<f64> {
+    let scene = scene(name);
+    let view = scene.camera.view([512, 512]);
+    let walk = walk(&scene, technique);
+    let shape = &scene.mirrors[0].shape;
+    let offset = |index| {
+        let at = DVec2::new(spread(index, 2), spread(index, 3)) * 512.0;
+        let ray = view.ray(at);
+        let hit = shape.intersect(view.eye, ray, 0.0)?;
+        let vertex = hit.position + near * ray.reflect(hit.normal);
+        let found = walk.search(vertex.as_vec3(), unseen).position;
+        let (found, _) = view.project(found.as_dvec3())?;
+        Some(found.distance(at))
+    };
+    let mut offsets: Vec<_> = (1..3000).filter_map(offset).collect();
+    offsets.sort_by(f64::total_cmp);
+    offsets
+}
+
+#[test]
+fn vertices_near_the_mirror_are_found() {
+    // A step as long as for far vertices overshoots ever more the nearer a vertex is.
+    for near in [0.3, 0.1, 0.03, 0.01, 0.003] {
+        let technique = "reflector-cubemap(iterations=15)";
+        let offsets = offsets_near("prototype-sphere", technique, near);
+        let [p50, p95] = [0.5, 0.95].map(|share| offsets[(offsets.len() as f64 * share) as usize]);
+        println!("{near}: {p50} {p95}");
+        assert!(offsets.len() > 700 && p50 < 0.05, "{near}: {p50}, {p95}");
+    }
+    let fixed = offsets_near("prototype-sphere", "reflector-cubemap(step=0.5)", 0.01);
+    assert!(fixed[fixed.len() / 2] > 5.0, "what a fixed step is off by");
+}
+
 #[test]
 fn many_iterations_are_exact() {
     // The bilinear maps of 256 texels an edge are off by the sagitta of a texel, 8e-6 of the
@@ -206,6 +241,10 @@ fn the_settings_lie_as_the_shader_reads_them() {
             first_step,
             shrink,
             grow,
+            different,
+            similar,
+            least,
+            greatest,
             from_eye,
             facing
         },

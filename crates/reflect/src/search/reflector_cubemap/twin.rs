@@ -50,10 +50,7 @@ struct Start {
 }
 
 const NEAR_MISS: f32 = 1.05;
-const DIFFERENT: f32 = 0.5;
-const SIMILAR: f32 = 0.25;
-const LEAST_STEP: f32 = 0.05;
-const GREATEST_STEP: f32 = 4.0;
+const LEAST_COSINE: f32 = 0.05;
 const EPSILON: f32 = 1e-12;
 
 fn major(q: Vec3) -> usize {
@@ -158,6 +155,14 @@ impl CubemapWalk {
         }
     }
 
+    fn fitting_step(&self, surface: &Surface, vertex: Vec3) -> f32 {
+        let to_eye = self.eye - surface.position;
+        let a = to_eye.length();
+        let b = vertex.distance(surface.position).max(1e-30);
+        let cosine = (to_eye.dot(surface.normal).abs() / a).max(LEAST_COSINE);
+        1.0 / (1.0 + 0.5 * surface.position.length() * (1.0 / a + 1.0 / b) / cosine)
+    }
+
     fn start(&self, vertex: Vec3) -> Start {
         let to_eye = self.eye.normalize();
         let middle = to_eye + vertex / vertex.length().max(1e-30);
@@ -205,22 +210,27 @@ impl CubemapWalk {
         let mut surface = self.lookup(q);
         let mut axis = major(q);
         let mut here = self.field(q, axis, &surface, vertex, continued);
-        let mut length_of_step = self.settings.first_step;
+        let fits = self.settings.first_step == 0.0;
+        let mut factor = if fits { 1.0 } else { self.settings.first_step };
         let mut steps = 0;
         while steps < self.settings.iterations && here.error >= EPSILON {
             steps += 1;
+            let mut length_of_step = factor;
+            if fits {
+                length_of_step *= self.fitting_step(&surface, vertex);
+            }
             let halfway = q + 0.5 * length_of_step * here.step;
             let there = self.field(halfway, axis, &self.lookup(halfway), vertex, continued);
             let from = q;
             q = on_cube(q + length_of_step * there.step);
             let longer = here.step.length().max(there.step.length()).max(1e-30);
             let change = here.step.distance(there.step) / longer;
-            if change > DIFFERENT {
-                length_of_step *= self.settings.shrink;
-            } else if change < SIMILAR {
-                length_of_step *= self.settings.grow;
+            if change > self.settings.different {
+                factor *= self.settings.shrink;
+            } else if change < self.settings.similar {
+                factor *= self.settings.grow;
             }
-            length_of_step = length_of_step.clamp(LEAST_STEP, GREATEST_STEP);
+            factor = factor.clamp(self.settings.least, self.settings.greatest);
             surface = self.lookup(q);
             axis = major(q);
             here = self.field(q, axis, &surface, vertex, continued);

@@ -185,7 +185,7 @@ pub const ENTRIES: &[Entry] = &[
     One(row("triangles.unfinished", "unfinished", "triangles to be split further", Count, Low,
         "Triangles still above the threshold at the level limit."), false),
     One(row("work.total", "work", "work", Plain, Low,
-        "Mean looks at texels (evaluations, node tests, samples together) for each searched vertex; of techniques that search no vertices, for each mirror pixel."), true),
+        "Mean looks at texels (evaluations, node tests, samples together) for each searched vertex; of techniques that search no vertices, for each mirror pixel."), false),
     One(row("work.evaluations", "evals", "evaluations", Plain, Low,
         "Mean uses of the error function for each searched vertex; of traced rays, triangles tested for each mirror pixel."), true),
     One(row("work.steps", "steps", "steps", Plain, Low,

@@ -183,7 +183,7 @@ mod tests {
         ];
         let rows: Vec<Value> = rows.iter().map(crate::record::Record::to_value).collect();
         insta::assert_snapshot!(summary(&rows).write(Format::Table), @"
-        scene         technique               agree %  missing %  extra %  angle p50 °  angle p99 °  offset px  failed     FLIP  evals  GPU ms  wall ms  remark
+        scene         technique               agree %  missing %  extra %  angle p50 °  angle p99 °  offset px  failed     FLIP   work  GPU ms  wall ms  remark
         sphere-table  linear                    98.10      1.100        0       0.2500        2.000     0.5000       0  0.05000  400.5   5.000    6.000
         teapot-ball   linear(residual=cross)        –          –        –            –            –          –       –        –      –       –        –  not-applicable: no such model
         ");

@@ -190,3 +190,48 @@ fn bounds_middle(mirror: &Mirror, view: &View) -> Option<DVec2> {
     });
     low.cmple(high).all().then(|| (low + high) / 2.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use catoptric_scene::Scene;
+    use glam::DVec3;
+
+    use super::*;
+    use crate::search::Instrumentation;
+    use crate::stage::points::points_layout;
+    use crate::testing::{gpu_or_skip, scene, stage};
+
+    const SIZE: [u32; 2] = [160, 120];
+
+    /// Workgroups of the scan, in x and y.
+    fn scanned(gpu: &Gpu, scene: &Scene) -> [u32; 2] {
+        let stage = stage(gpu, scene, SIZE);
+        let context = Context {
+            gpu,
+            stage: &stage,
+            extends: false,
+            points_layout: &points_layout(gpu),
+            instrumentation: Instrumentation::Efforts,
+        };
+        let starts = Starts::new(&context, Start::Center).expect("fits the device");
+        gpu.run(|frame| {
+            stage.begin(frame, Variant::AllLayers);
+            starts.record(frame, &stage, 0);
+        });
+        let bytes = gpu.read_buffer_part(&starts.mirrors[0].scan, 8);
+        [0, 4].map(|from| bytemuck::pod_read_unaligned(&bytes[from..][..4]))
+    }
+
+    #[test]
+    fn the_image_is_scanned_only_where_the_middle_shows_no_mirror() {
+        let Some(gpu) = gpu_or_skip() else { return };
+        for name in ["sphere-square", "ellipsoid", "bowl", "prototype-bowl"] {
+            assert_eq!(scanned(&gpu, &scene(name)), [0, 0], "{name}");
+        }
+        // Nearly along its axis, the middle of a torus shows its hole.
+        let mut torus = scene("torus");
+        torus.camera.target = torus.mirrors[0].shape.center();
+        torus.camera.eye = torus.camera.target + 5.0 * DVec3::Z;
+        assert_eq!(scanned(&gpu, &torus), [20, 15]);
+    }
+}

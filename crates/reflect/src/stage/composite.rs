@@ -86,3 +86,43 @@ impl Composite {
         });
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use catoptric_frame::Status;
+    use glam::Vec3;
+
+    use crate::testing::{gpu_or_skip, scene};
+
+    #[test]
+    fn under_the_reflections_a_mirror_is_what_is_asked_for() {
+        let Some(gpu) = gpu_or_skip() else { return };
+        let scene = scene("sphere-square");
+        let frame = |under: &str| {
+            let spec = crate::parse(&format!("linear(under={under})")).expect("a technique");
+            let mut prepared = crate::prepare(&gpu, &spec, &scene, [80, 60]).expect("fits");
+            prepared.render().expect("a frame").frame
+        };
+        let [background, dark, solid] = ["background", "dark", "solid"].map(frame);
+        let reflected = solid.reflected.as_ref().expect("layers");
+        let (mut uncovered, mut covered) = (0, 0);
+        for (pixel, status) in reflected.status.pixels().iter().enumerate() {
+            if *status != Status::Resolved {
+                continue;
+            }
+            let [of_background, of_dark, of_solid] =
+                [&background, &dark, &solid].map(|frame| frame.color.pixels()[pixel]);
+            if reflected.id.pixels()[pixel] == 0 {
+                uncovered += 1;
+                assert_eq!(of_dark, Vec3::ZERO);
+                assert_eq!(of_solid, Vec3::splat(of_solid.x));
+                assert!((0.1..=0.5).contains(&of_solid.x), "{of_solid}");
+                assert_ne!(of_background.x, of_background.z);
+            } else {
+                covered += 1;
+                assert_eq!((of_dark, of_solid), (of_background, of_background));
+            }
+        }
+        assert!(uncovered > 500 && covered > 50, "{uncovered} {covered}");
+    }
+}

@@ -33,6 +33,7 @@ pub(crate) fn features(options: &CubemapTrace) -> Vec<&'static str> {
         (options.pyramid != P::Off, "pyramid"),
         (options.pyramid == P::Sound, "sound"),
         (continuous, "continuous"),
+        (options.accept == Accept::Any, "any"),
         (options.shows_mirrors(), "bounce"),
         (options.restart == Restart::Clear, "clear"),
         (unresolved == U::Best, "best"),

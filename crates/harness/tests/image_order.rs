@@ -13,6 +13,14 @@ const EXACT_DEG: f64 = 0.05;
 /// Mirror pixels with the right object that two maps of 512² reach, and those they leave open.
 const TRACED: f64 = 0.95;
 const OPEN: f64 = 0.02;
+/// Largest difference between rays looked at texel by texel and at even steps, share of mirror pixels.
+const SAME_BY_TEXELS: f64 = 0.005;
+/// Mirror pixels with the right object where all rays start hidden from the first of two maps.
+const NOT_HIDDEN: f64 = 0.98;
+/// Share of those that the first map resolves.
+const HIDDEN: f64 = 0.02;
+/// Mirror pixels with the right object where rays run along the seams of a map.
+const ALONG_SEAMS: f64 = 0.98;
 
 fn compare(scenes: &[&str], techniques: &[&str]) -> Vec<Value> {
     measured(scenes, techniques, Some([96, 72]), 0.05)
@@ -69,4 +77,173 @@ fn more_bounces_come_nearer_to_the_truth_with_mirrors_in_mirrors() {
     let full = |row: &Value| number(row, "/against_full/object_agreement");
     assert!(full(&rows[1]) > full(&rows[0]) + 0.05, "{rows:?}");
     assert!(full(&rows[1]) > number(&rows[1], "/object_agreement"));
+}
+
+#[test]
+fn texels_after_a_clear_one_show_what_samples_after_a_clear_one_do() {
+    if !gpu_or_skip() {
+        return;
+    }
+    let technique = |options| format!("cubemap-trace(bounces=3,restart=clear,{options})");
+    let options = [
+        "sampling=step",
+        "sampling=texel",
+        "sampling=texel,pyramid=sound",
+        "sampling=texel,pyramid=published",
+    ];
+    let rows = compare(
+        &["bowl"],
+        &options.map(technique).each_ref().map(String::as_str),
+    );
+    let full = |row: &Value| number(row, "/against_full/object_agreement");
+    for (row, options) in rows.iter().zip(options) {
+        let (texels, steps) = (full(row), full(&rows[0]));
+        assert!(
+            (texels - steps).abs() <= SAME_BY_TEXELS,
+            "{options}: {texels}, {steps}"
+        );
+    }
+}
+
+/// Everything twice, mirrored in the plane x = z; the map stands at the centre, so that this plane runs
+/// along edges of the cube's faces, their middles and their diagonals.
+const SYMMETRIC: &str = r#"why = "The same on both sides of the plane x = z."
+background = { color = [0, 0, 0] }
+camera = { eye = [EYE], target = [0, 0, 0], fov_y = 34 }
+
+[[object]]
+name = "room"
+shape = "box"
+n = 6
+vertex_colors = true
+transform = { scale = [6, 4, 6] }
+
+[[object]]
+name = "balls"
+shape = "sphere"
+segments = 24
+color = [0.8, 0.2, 0.1]
+transform = { scale = 0.5, translate = [2.5, 0.4, 0.6] }
+repeat = [{ count = 2, rotate_deg = [0, -63.0086, 0] }, { count = 2, rotate_deg = [0, 180, 0] }]
+
+[[object]]
+name = "ball between"
+shape = "sphere"
+segments = 24
+color = [0.1, 0.2, 0.8]
+transform = { scale = 0.4, translate = [1.8, -0.6, 1.8] }
+repeat = [{ count = 2, rotate_deg = [0, 180, 0] }]
+
+[[mirror]]
+name = "ball"
+shape = "sphere"
+radius = 1
+cubemaps = [[0, 0, 0]]
+"#;
+
+#[test]
+fn rays_along_seams_and_edges_are_resolved_as_others_are() {
+    if !gpu_or_skip() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = |name: &str, eye: &str| {
+        let path = folder.path().join(name);
+        let text = SYMMETRIC.replace("EYE", eye);
+        std::fs::write(&path, text).expect("the folder takes files");
+        path.to_str().expect("a UTF-8 path").to_owned()
+    };
+    let scenes = [
+        scene("in.toml", "3.4, 0.7, 3.4"),
+        scene("off.toml", "4.1, 0.7, 2.5"),
+    ];
+    let techniques = [
+        "sampling=step",
+        "pyramid=published",
+        "sampling=texel,pyramid=published",
+        "accept=any,pyramid=published",
+        "pyramid=sound",
+        "sampling=texel,pyramid=sound",
+        "stage=compute",
+    ];
+    let named =
+        techniques.map(|options| format!("cubemap-trace(objects=1,placement=scene,{options})"));
+    let scenes = scenes.each_ref().map(String::as_str);
+    // Odd sides: the middle column and row of pixels lie in planes of symmetry.
+    let rows = measured(
+        &scenes,
+        &named.each_ref().map(String::as_str),
+        Some([97, 73]),
+        0.05,
+    );
+    let (within, beside) = rows.split_at(techniques.len());
+    let open = |row: &Value| row["coverage"]["unresolved"].as_f64().unwrap_or(0.0);
+    for ((within, beside), options) in within.iter().zip(beside).zip(techniques) {
+        assert!(
+            open(within) <= open(beside),
+            "{options}: {} {}",
+            open(within),
+            open(beside)
+        );
+        let agreement = number(within, "/object_agreement");
+        assert!(agreement >= ALONG_SEAMS, "{options}: {agreement}");
+    }
+}
+
+/// A board over the mirror and a ball between them; the first map looks down on the board, the second
+/// sees the ball.
+const BEHIND_A_BOARD: &str = r#"why = "What the first map shows is met from behind."
+background = { color = [0.2, 0.3, 0.4] }
+camera = { eye = [0, 1.4, 5], target = [0, 0.2, 0], fov_y = 34 }
+
+[[object]]
+name = "board"
+shape = "grid"
+color = [0.8, 0.2, 0.1]
+transform = { scale = [6, 1, 6], translate = [0, 2, 0] }
+
+[[object]]
+name = "ball"
+shape = "sphere"
+segments = 32
+color = [0.1, 0.2, 0.8]
+transform = { scale = 0.35, translate = [0, 1.5, 0.2] }
+
+[[mirror]]
+name = "ball"
+shape = "sphere"
+radius = 1
+cubemaps = [[0, 6, 0], [0, 0, 0]]
+"#;
+
+#[test]
+fn a_map_in_which_a_ray_starts_hidden_is_not_certain() {
+    if !gpu_or_skip() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("board.toml");
+    std::fs::write(&path, BEHIND_A_BOARD).expect("the folder takes files");
+    let techniques = [
+        "sampling=step",
+        "pyramid=sound",
+        "restart=clear",
+        "sampling=texel",
+        "sampling=texel,pyramid=sound",
+        "sampling=texel,restart=clear",
+        "stage=compute",
+    ];
+    let named = techniques.map(|options| format!("cubemap-trace(placement=scene,{options})"));
+    let scene = path.to_str().expect("a UTF-8 path");
+    let rows = compare(&[scene], &named.each_ref().map(String::as_str));
+    for (row, options) in rows.iter().zip(techniques) {
+        let agreement = number(row, "/object_agreement");
+        assert!(agreement >= NOT_HIDDEN, "{options}: {agreement}");
+        let by_map = row["resolved_by"].as_array().cloned().unwrap_or_default();
+        let first = by_map.first().and_then(Value::as_f64);
+        assert!(
+            first.is_some_and(|share| share < HIDDEN),
+            "{options}: {by_map:?}"
+        );
+    }
 }

@@ -31,6 +31,8 @@ pub(crate) struct TraceUniform {
     pub finest: u32,
     /// Rays that are followed from a pixel.
     pub bounces: u32,
+    /// Cosine below which a ray turns much (criterion `switch`).
+    pub turn: f32,
 }
 
 impl TraceUniform {
@@ -48,6 +50,7 @@ impl TraceUniform {
             coarsest: options.from.min(finest),
             finest,
             bounces: options.bounces,
+            turn: options.turn as f32,
         }
     }
 }
@@ -126,7 +129,8 @@ mod tests {
                     bias,
                     coarsest,
                     finest,
-                    bounces
+                    bounces,
+                    turn
                 },
                 program,
                 &[],

@@ -2,7 +2,9 @@
 
 use catoptric_frame::{Image, Traced};
 
-use super::options::{Accept, Criterion, CubemapTrace, Restart, Sampling, Skipping, Unresolved};
+use super::options::{
+    Accept, Criterion, CubemapTrace, Filter, Restart, Sampling, Skipping, Unresolved,
+};
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder, module};
 use crate::image_order::per_pixel::{Pass, PerPixel};
@@ -30,12 +32,14 @@ pub(crate) fn features(options: &CubemapTrace) -> Vec<&'static str> {
         (criterion == C::Switch, "turning"),
         (sampling == S::Angle, "angle"),
         (sampling == S::Texel, "texel"),
+        (sampling == S::Entry, "entry"),
         (options.pyramid != P::Off, "pyramid"),
         (options.pyramid == P::Sound, "sound"),
         (continuous, "continuous"),
         (options.accept == Accept::Any, "any"),
         (options.shows_mirrors(), "bounce"),
         (options.restart == Restart::Clear, "clear"),
+        (options.filter == Filter::Linear, "linear"),
         (unresolved == U::Best, "best"),
         (unresolved == U::Background, "background"),
         (unresolved == U::Environment, "environment"),

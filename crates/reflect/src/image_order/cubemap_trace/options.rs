@@ -48,8 +48,10 @@ words! {
         Step = "step",
         /// At even angles, seen from the map's centre.
         Angle = "angle",
-        /// Once in each texel.
+        /// Once in each texel, for all of the ray's way through it.
         Texel = "texel",
+        /// Once in each texel, where the ray enters it.
+        Entry = "texel-entry",
     }
 }
 
@@ -95,6 +97,16 @@ words! {
 }
 
 words! {
+    /// What colour a ray takes from the map where it meets something.
+    pub(crate) enum Filter {
+        /// The texel's.
+        Nearest = "nearest",
+        /// Blended between the four nearest texels.
+        Linear = "linear",
+    }
+}
+
+words! {
     /// What a pixel shows that no map resolves.
     pub(crate) enum Unresolved {
         /// That it is unresolved.
@@ -121,7 +133,7 @@ options! {
         criterion: Criterion,
         /// which sign changes count: those where the map is continuous, of a map that hides nothing before them if there is one (ours), or any, as published
         accept: Accept,
-        /// where a ray is looked at: at even steps, at even angles, or once in each texel
+        /// where a ray is looked at: at even steps, at even angles, or once in each texel: for all of its way through it (ours), or where it enters, as published
         sampling: Sampling,
         /// skipping by least and greatest distances: none, by those at a cell's ends, or by the ray's nearest point
         pyramid: Skipping,
@@ -135,6 +147,8 @@ options! {
         step: f64 = 0.001 in 0.000_02..=0.5,
         /// largest distance that counts as a hit, in steps (criterion=distance)
         limit: f64 = 1.5 in 0.0..=1000.0,
+        /// cosine of the angle, seen from the map's centre, from which on a ray counts as turning: the distance decides (criterion=switch)
+        turn: f64 = 0.7 in -1.0..=1.0,
         /// coarsest level of the pyramid; level k has 2^k cells a side
         from: u32 = 2 in 0..=10,
         /// finest level of the pyramid
@@ -145,6 +159,8 @@ options! {
         bias: f64 = 0.0 in 0.0..=0.5,
         /// how a ray gets off the mirror (bounces): by the bias, or no hit counts before a sample that is clear of the surface
         restart: Restart,
+        /// what colour is taken from a map: that of the texel, or blended between the four nearest
+        filter: Filter,
         /// what a pixel shows that no map resolves
         unresolved: Unresolved,
         ..maps: MapOptions,
@@ -167,6 +183,7 @@ impl CubemapTrace {
             .or_else(|| unless("sampling", self.sampling, &[S::Step, S::Texel]))
             .or_else(|| unless("pyramid", self.pyramid, &[P::Off, P::Sound]))
             .or_else(|| (self.bounces > 1).then(|| lacks("bounces", self.bounces, 1)))
+            .or_else(|| unless("filter", self.filter, &[Filter::Nearest]))
             .or_else(|| unless("unresolved", self.unresolved, &[U::Mark, U::Background]))
     }
 }
@@ -201,6 +218,8 @@ mod tests {
             ("criterion=both", "analytic, distance"),
             ("criterion=switch", "analytic, distance"),
             ("sampling=angle", "step, texel"),
+            ("sampling=texel-entry", "step, texel"),
+            ("filter=linear", "nearest"),
             ("pyramid=published", "off, sound"),
             ("bounces=3", "1"),
             ("unresolved=environment", "mark, background"),

@@ -1,7 +1,8 @@
 //! On a software adapter: versions of the technique that must agree do.
 
-use catoptric_frame::{Frame, Status, Traced};
+use catoptric_frame::{Frame, Image, Status, Traced};
 use catoptric_scene::Scene;
+use glam::Vec3;
 
 use super::maps::{MORE, MirrorMaps, TraceUniform};
 use super::options::CubemapTrace;
@@ -62,8 +63,12 @@ fn skipping_changes_nothing_and_saves_samples() {
     let criteria = [
         "analytic",
         "analytic,accept=any",
+        "analytic,restart=clear",
+        "analytic,sampling=texel,restart=clear",
+        "both,accept=any,restart=clear",
         "analytic,sampling=angle",
         "analytic,sampling=texel",
+        "analytic,sampling=texel-entry",
         "distance",
         "both",
         "both,accept=any",
@@ -336,4 +341,77 @@ fn the_pyramid_is_that_of_the_cpu() {
         assert_eq!(on_gpu, cells, "level {level}");
         finer = cells;
     }
+}
+
+#[test]
+fn each_texel_is_sampled_once_where_a_ray_enters_it() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let scene = scene("sphere-table");
+    let by_size = [64, 256].map(|size| {
+        let technique = |sampling| {
+            format!("cubemap-trace(size={size},objects=1,placement=random,accept=any,sampling={sampling})")
+        };
+        let entry = traced(&gpu, &scene, &technique("texel-entry"));
+        let texel = traced(&gpu, &scene, &technique("texel"));
+        let step = render(&gpu, &scene, &technique("step"));
+        assert!(entry.0.work.samples < step.work.samples);
+        // What is met inside a texel shows at the border to the next one.
+        let pairs = entry.1.samples.pixels().iter().zip(texel.1.samples.pixels());
+        let earlier = pairs.filter(|(entry, texel)| *entry + 2 < **texel).count();
+        assert!(100 * earlier < texel.1.samples.pixels().len(), "{earlier}");
+        1.0 - same(&entry.0.frame, &texel.0.frame)
+    });
+    // A texel more is less where texels are small.
+    assert!(
+        by_size[0] < 0.1 && by_size[1] < 0.5 * by_size[0],
+        "{by_size:?}"
+    );
+}
+
+#[test]
+fn turning_is_what_the_option_says() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let scene = scene("sphere-table");
+    let picture = |options: &str| {
+        let technique = format!("cubemap-trace(size=64,placement=random,accept=any,{options})");
+        render(&gpu, &scene, &technique).frame.color
+    };
+    // No ray turns by more than half a turn, and every one by some angle.
+    assert_eq!(
+        picture("criterion=switch,turn=-1"),
+        picture("criterion=analytic")
+    );
+    assert_eq!(
+        picture("criterion=switch,turn=1"),
+        picture("criterion=distance")
+    );
+    assert_eq!(
+        picture("criterion=switch"),
+        picture("criterion=switch,turn=0.7")
+    );
+    assert_ne!(
+        picture("criterion=switch"),
+        picture("criterion=switch,turn=0.2")
+    );
+}
+
+#[test]
+fn colours_are_blended_where_they_are_asked_to_be() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let scene = scene("sphere-table");
+    let shown = |options: &str| {
+        let technique = format!("cubemap-trace(size=32,placement=random,{options})");
+        let frame = render(&gpu, &scene, &technique).frame;
+        (frame.color, frame.reflected.expect("all layers").id)
+    };
+    let (nearest, linear) = (shown("filter=nearest"), shown("filter=linear"));
+    assert_eq!(nearest.1, linear.1);
+    assert_eq!(nearest.0, shown("step=0.001").0);
+    // Neighbouring pixels differ less: blended colours are no steps.
+    let steps = |image: &Image<Vec3>| -> f32 {
+        let rows = image.pixels().chunks_exact(SIZE[0] as usize);
+        let pairs = rows.flat_map(|row| row.windows(2));
+        pairs.map(|pair| pair[0].distance_squared(pair[1])).sum()
+    };
+    assert!(steps(&linear.0) < steps(&nearest.0));
 }

@@ -26,7 +26,7 @@ use self::lanes::Lanes;
 use self::maps::{MORE, MirrorMaps, TraceUniform};
 use self::march::March;
 pub(crate) use self::options::CubemapTrace;
-use self::options::{ShaderStage, Skipping, Unresolved};
+use self::options::{Objects, ShaderStage, Skipping, Unresolved};
 use super::cubemaps::{Update, Wanted, bytes, maps_layout};
 use super::{ImageOrder, Recipe};
 use crate::diagnostics::{Answer, Question};
@@ -63,10 +63,17 @@ impl Recipe for CubemapTrace {
     }
 }
 
+/// Part of its distance from a mirror by which the eye may move before the mirror's maps are placed anew
+/// (`objects=auto`).
+const MOVED: f64 = 0.1;
+
 /// The technique, ready for a scene.
 struct Tracing {
     options: CubemapTrace,
+    own_layout: wgpu::BindGroupLayout,
     mirrors: Vec<MirrorMaps>,
+    /// From each mirror's centre to the eye when its maps were placed.
+    placed_from: Vec<DVec3>,
     tracer: Tracer,
     fill: Option<Fill>,
     /// What rays took, as [`march::traced`] reads it; written with all layers.
@@ -84,50 +91,76 @@ fn written(place: &DVec3) -> String {
     format!("[{:.4}, {:.4}, {:.4}]", place.x, place.y, place.z)
 }
 
+fn eye_from_mirrors(scene: &Scene) -> Vec<DVec3> {
+    let mirrors = scene.mirrors.iter();
+    let from = mirrors.map(|mirror| scene.camera.eye - mirror.shape.center());
+    from.collect()
+}
+
+/// The maps of all mirrors, placed but not drawn yet.
+fn mirrors_maps(
+    gpu: &Gpu,
+    options: &CubemapTrace,
+    stage: &Stage,
+    own_layout: &wgpu::BindGroupLayout,
+) -> Result<Vec<MirrorMaps>, ReflectError> {
+    let pyramid = options.stage == ShaderStage::Compute || options.pyramid != Skipping::Off;
+    let scene = &stage.world.scene;
+    let trace = TraceUniform::new(options, scene);
+    let size = options.maps.size.texels();
+    let fit = |count| gpu.check_memory(bytes(size, count, options.shows_mirrors()));
+    // Before places are looked for, which takes long where there are many mirrors.
+    fit(scene.mirrors.len() * options.objects.number().unwrap_or(1))?;
+    let places = placement::places(gpu, options, stage)?;
+    fit(places.iter().map(Vec::len).sum())?;
+    let placed = scene.mirrors.iter().zip(places);
+    let maps = placed.map(|(mirror, mut centers)| {
+        let traced = centers.len();
+        if options.unresolved == Unresolved::Environment {
+            centers.push(mirror.shape.center());
+        }
+        let wanted = Wanted {
+            size,
+            centers,
+            traced,
+            mirrors: options.shows_mirrors(),
+        };
+        MirrorMaps::new(gpu, pyramid, &trace, stage, wanted, own_layout)
+    });
+    maps.collect()
+}
+
 impl Tracing {
     fn new(gpu: &Gpu, options: &CubemapTrace, stage: &Stage) -> Result<Self, ReflectError> {
         let own_layout = maps_layout(gpu, "cubemap trace", MORE);
-        let compute = options.stage == ShaderStage::Compute;
-        let pyramid = compute || options.pyramid != Skipping::Off;
-        let trace = TraceUniform::new(options, &stage.world.scene);
-        let mut mirrors = Vec::new();
-        // Before places are looked for, which takes long where there are many mirrors.
-        let count = stage.world.mirrors.len() * options.objects as usize;
-        let size = options.maps.size.texels();
-        gpu.check_memory(bytes(size, count, options.shows_mirrors()))?;
-        let places = placement::places(gpu, options, stage)?;
-        for (mirror, mut centers) in stage.world.scene.mirrors.iter().zip(places) {
-            let traced = centers.len();
-            if options.unresolved == Unresolved::Environment {
-                centers.push(mirror.shape.center());
-            }
-            let wanted = Wanted {
-                size: options.maps.size.texels(),
-                centers,
-                traced,
-                mirrors: options.shows_mirrors(),
-            };
-            let maps = MirrorMaps::new(gpu, pyramid, &trace, stage, wanted, &own_layout)?;
-            mirrors.push(maps);
-        }
+        let mirrors = mirrors_maps(gpu, options, stage, &own_layout)?;
         let fill = match options.unresolved {
             Unresolved::Trace => Some(Fill::new(gpu, stage, true)?),
             Unresolved::Neighbours => Some(Fill::new(gpu, stage, false)?),
             _ => None,
         };
         let effort = target(gpu, "effort", stage.world.size, FLOAT4);
-        let tracer = if compute {
+        let tracer = if options.stage == ShaderStage::Compute {
             Tracer::Compute(Lanes::new(gpu, options, stage, &own_layout, &effort)?)
         } else {
             Tracer::Fragment(March::new(gpu, options, stage, &own_layout)?)
         };
         Ok(Self {
             options: *options,
+            placed_from: eye_from_mirrors(&stage.world.scene),
+            own_layout,
             tracer,
             fill,
             effort,
             mirrors,
         })
+    }
+
+    /// The view has moved so far that other places may serve it better.
+    fn has_moved(&self, scene: &Scene) -> bool {
+        let pairs = self.placed_from.iter().zip(eye_from_mirrors(scene));
+        let mut pairs = pairs.map(|(from, to)| from.distance(to) > MOVED * from.length());
+        pairs.any(|moved| moved)
     }
 
     /// The maps are drawn anew in every frame.
@@ -142,8 +175,8 @@ impl Tracing {
     /// What the last frame's rays took, as [`march::traced`] reads it.
     fn traced(&self, gpu: &Gpu) -> Traced {
         let texels = gpu.read_texture(&self.effort);
-        let first = self.mirrors.first();
-        let maps = first.map_or(0, |mirror| mirror.maps.traced());
+        let maps = self.mirrors.iter().map(|mirror| mirror.maps.traced());
+        let maps = maps.max().unwrap_or(0);
         let size = [self.effort.width(), self.effort.height()];
         march::traced(size, &texels, maps)
     }
@@ -156,10 +189,16 @@ impl Tracing {
 }
 
 impl ImageOrder for Tracing {
-    /// Maps stay where they were placed; drawn in every frame, they show what moved.
+    /// Maps stay where they were placed, unless they are placed by what the view needs; drawn in every
+    /// frame, they show what moved.
     fn update(&mut self, gpu: &Gpu, stage: &Stage) -> Result<(), ReflectError> {
-        if self.draws_every_frame() {
-            let trace = TraceUniform::new(&self.options, &stage.world.scene);
+        let scene = &stage.world.scene;
+        if self.options.objects == Objects::Auto && self.has_moved(scene) {
+            self.mirrors = mirrors_maps(gpu, &self.options, stage, &self.own_layout)?;
+            self.placed_from = eye_from_mirrors(scene);
+            gpu.run(|frame| self.record_maps(frame, stage));
+        } else if self.draws_every_frame() {
+            let trace = TraceUniform::new(&self.options, scene);
             for mirror in &mut self.mirrors {
                 mirror.refresh(gpu, &trace, stage);
             }

@@ -18,6 +18,39 @@ words! {
 }
 
 words! {
+    /// Maps of each mirror.
+    pub(crate) enum Objects {
+        Two = "2",
+        One = "1",
+        Three = "3",
+        Four = "4",
+        Five = "5",
+        Six = "6",
+        Seven = "7",
+        Eight = "8",
+        /// As many as are worth it, up to eight.
+        Auto = "auto",
+    }
+}
+
+impl Objects {
+    /// How many; `None` for as many as are worth it.
+    pub(crate) fn number(self) -> Option<usize> {
+        match self {
+            Self::One => Some(1),
+            Self::Two => Some(2),
+            Self::Three => Some(3),
+            Self::Four => Some(4),
+            Self::Five => Some(5),
+            Self::Six => Some(6),
+            Self::Seven => Some(7),
+            Self::Eight => Some(8),
+            Self::Auto => None,
+        }
+    }
+}
+
+words! {
     /// What counts as a hit. Δ is a sample's distance from the map's centre less the distance that
     /// the map holds in its direction.
     pub(crate) enum Criterion {
@@ -125,8 +158,8 @@ words! {
 
 options! {
     pub(crate) struct CubemapTrace {
-        /// cube maps of each mirror
-        objects: u32 = 2 in 1..=8,
+        /// cube maps of each mirror; auto (ours): with another one, up to eight, as long as it resolves 0.2 % of the mirror's pixels more, placed anew when the view has moved
+        objects: Objects,
         /// where the maps are taken from: of random candidates those that resolve the most pixels, or just as many as are needed, or the mirror's `cubemaps` in the scene file
         placement: Placement,
         /// what counts as a hit: a sign change of the distance to the map, a small one, a small one or else the first sign change, or either by how much the ray turns
@@ -201,8 +234,18 @@ fn lacks(option: &str, value: impl Display, only: impl Display) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::Objects;
+    use crate::options::Words;
     use crate::testing::scene;
     use crate::{Support, parse, supports};
+
+    #[test]
+    fn a_number_of_maps_is_what_it_is_written_as() {
+        for (objects, word) in Objects::ALL.iter().zip(Objects::WORDS) {
+            let number = objects.number().map(|number| number.to_string());
+            assert_eq!(number.as_deref().unwrap_or("auto"), *word);
+        }
+    }
 
     #[test]
     fn compute_shaders_name_what_they_lack() {

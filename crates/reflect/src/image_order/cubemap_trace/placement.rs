@@ -4,7 +4,8 @@
 //! Without a place in the file, candidates are tried out: small maps are drawn from each, with the
 //! mirrors where the traced maps show them, and a small picture says for which mirror pixels the ray
 //! is resolved there with certainty (a sign change of Δ where the map is continuous). Then the maps
-//! are chosen greedily, each for the pixels that those before leave.
+//! are chosen greedily, each for the pixels that those before leave; `objects=auto` stops where the next one
+//! is not worth its cost.
 
 use catoptric_scene::shape::Facing;
 use catoptric_scene::{Mesh, Mirror, Random, Scene};
@@ -21,6 +22,10 @@ use crate::stage::variant::Variant;
 
 /// Candidates for each mirror.
 const CANDIDATES: usize = 16;
+/// Most maps of a mirror where their number is not given.
+const MOST: usize = 8;
+/// Share of a mirror's pixels that another map must resolve to be worth it (`objects=auto`).
+const WORTH: f64 = 0.002;
 /// Longer side of the picture in which candidates are tried, pixels.
 const TRIAL_PIXELS: u32 = 64;
 /// Texels a side of the maps that are tried.
@@ -36,15 +41,17 @@ pub(crate) fn places(
     options: &CubemapTrace,
     stage: &Stage,
 ) -> Result<Vec<Vec<DVec3>>, ReflectError> {
-    let wanted = options.objects as usize;
+    let number = options.objects.number();
+    let most = number.unwrap_or(MOST);
     let outside = options.shows_mirrors();
     let scene = &stage.world.scene;
     let count = match options.placement {
-        Placement::Auto => CANDIDATES.max(wanted),
-        Placement::Random => wanted,
+        Placement::Auto => CANDIDATES,
+        Placement::Random => most,
         Placement::Scene => {
-            let by_mirror = scene.mirrors.iter();
-            return Ok(by_mirror.map(|m| m.cubemaps[..wanted].to_vec()).collect());
+            let by_mirror = scene.mirrors.iter().map(|mirror| &mirror.cubemaps);
+            let listed = by_mirror.map(|places| places[..most.min(places.len())].to_vec());
+            return Ok(listed.collect());
         }
     };
     let mut rng = Random::new(SEED);
@@ -54,7 +61,13 @@ pub(crate) fn places(
     }
     let covered = Trial::new(gpu, options, stage)?.covered(gpu, &candidates)?;
     let chosen = candidates.iter().zip(&covered).map(|(centers, covered)| {
-        let order = greedy(centers, covered, wanted);
+        let worth = WORTH * covered.pixels as f64;
+        let least = if number.is_some() {
+            0
+        } else {
+            (worth.ceil() as usize).max(1)
+        };
+        let order = greedy(centers, &covered.by_candidate, most, least);
         order.into_iter().map(|index| centers[index]).collect()
     });
     Ok(chosen.collect())
@@ -65,18 +78,20 @@ pub(crate) fn objection(options: &CubemapTrace, scene: &Scene) -> Option<String>
     if options.placement != Placement::Scene {
         return None;
     }
-    let wanted = options.objects as usize;
+    let wanted = options.objects.number();
     let outside = options.shows_mirrors();
     scene.mirrors.iter().find_map(|mirror| {
         let (name, listed) = (&mirror.name, mirror.cubemaps.len());
-        if listed < wanted {
+        let least = wanted.unwrap_or(1);
+        if listed < least {
             return Some(format!(
-                "placement=scene: mirror \"{name}\" has places for {listed} of the {wanted} maps \
+                "placement=scene: mirror \"{name}\" has places for {listed} of the {least} maps \
                  (key `cubemaps` in the scene file)"
             ));
         }
         let inside = |center: &&DVec3| outside && mirror.shape.contains(**center);
-        let center = mirror.cubemaps[..wanted].iter().find(inside)?;
+        let taken = wanted.unwrap_or(MOST).min(listed);
+        let center = mirror.cubemaps[..taken].iter().find(inside)?;
         Some(format!(
             "placement=scene: with bounces={} the maps show the mirrors, but the one at {center} lies \
              inside mirror \"{name}\"",
@@ -157,8 +172,9 @@ fn crossing([a, b, c]: [DVec3; 3], from: DVec3, way: DVec3) -> Option<f64> {
 }
 
 /// Indices of the candidates chosen, each covering the most of what is left; where nothing is left
-/// to cover, the one farthest from those chosen.
-fn greedy(centers: &[DVec3], covered: &[Vec<bool>], wanted: usize) -> Vec<usize> {
+/// to cover, the one farthest from those chosen. None after the first that covers less than `least` pixels
+/// of what is left.
+fn greedy(centers: &[DVec3], covered: &[Vec<bool>], wanted: usize, least: usize) -> Vec<usize> {
     let mut chosen: Vec<usize> = Vec::new();
     let mut left = vec![true; covered.first().map_or(0, Vec::len)];
     while chosen.len() < wanted.min(centers.len()) {
@@ -174,15 +190,27 @@ fn greedy(centers: &[DVec3], covered: &[Vec<bool>], wanted: usize) -> Vec<usize>
         let best = free.map(|index| (gain(index), std::cmp::Reverse(index)));
         let best =
             best.max_by(|(a, i), (b, j)| (a.0.cmp(&b.0)).then(a.1.total_cmp(&b.1)).then(i.cmp(j)));
-        let Some((_, std::cmp::Reverse(index))) = best else {
+        let Some(((gained, _), std::cmp::Reverse(index))) = best else {
             break;
         };
+        if gained < least && !chosen.is_empty() {
+            break;
+        }
         for (left, covered) in left.iter_mut().zip(&covered[index]) {
             *left &= !covered;
         }
         chosen.push(index);
     }
     chosen
+}
+
+/// What the candidates of a mirror resolve.
+#[derive(Clone, Default)]
+struct Covered {
+    /// Pixels that show the mirror.
+    pixels: usize,
+    /// By candidate, pixel of the whole picture: whether the ray is resolved in that candidate's map.
+    by_candidate: Vec<Vec<bool>>,
 }
 
 /// A small picture of the scene in which candidates are tried.
@@ -218,12 +246,8 @@ impl<'a> Trial<'a> {
         })
     }
 
-    /// By mirror, candidate, pixel: whether the ray is resolved in that candidate's map.
-    fn covered(
-        &self,
-        gpu: &Gpu,
-        candidates: &[Vec<DVec3>],
-    ) -> Result<Vec<Vec<Vec<bool>>>, ReflectError> {
+    /// What each mirror's candidates resolve.
+    fn covered(&self, gpu: &Gpu, candidates: &[Vec<DVec3>]) -> Result<Vec<Covered>, ReflectError> {
         let trace = TraceUniform {
             step: TRIAL_STEP,
             ..TraceUniform::new(self.options, &self.stage.world.scene)
@@ -235,7 +259,7 @@ impl<'a> Trial<'a> {
             mirrors: self.options.shows_mirrors(),
         };
         let effort = target(gpu, "trial", self.stage.world.size, FLOAT4);
-        let mut covered = vec![Vec::new(); candidates.len()];
+        let mut covered = vec![Covered::default(); candidates.len()];
         let most = candidates.iter().map(Vec::len).max().unwrap_or(0);
         let first = candidates.iter().map(|centers| {
             MirrorMaps::new(
@@ -264,11 +288,11 @@ impl<'a> Trial<'a> {
             let texels = gpu.read_texture(&effort);
             let mirrors = gpu.read_texture(&self.stage.gbuffer.position);
             for (covered, mirror) in covered.iter_mut().zip(&self.stage.world.mirrors) {
-                let pixels = texels.iter().zip(&mirrors);
-                let resolved = pixels.map(|(effort, point)| {
-                    point[3] == mirror.id as f32 && march::is_resolved(effort)
-                });
-                covered.push(resolved.collect());
+                let shown = mirrors.iter().map(|point| point[3] == mirror.id as f32);
+                covered.pixels = shown.clone().filter(|shown| *shown).count();
+                let pixels = texels.iter().zip(shown);
+                let resolved = pixels.map(|(effort, shown)| shown && march::is_resolved(effort));
+                covered.by_candidate.push(resolved.collect());
             }
         }
         Ok(covered)
@@ -312,14 +336,28 @@ mod tests {
             vec![true, true, false, false],
             vec![false, false, false, true],
         ];
-        assert_eq!(greedy(&centers, &covered, 2), [0, 2]);
-        assert_eq!(greedy(&centers, &covered, 3), [0, 2, 1]);
+        assert_eq!(greedy(&centers, &covered, 2, 0), [0, 2]);
+        assert_eq!(greedy(&centers, &covered, 3, 0), [0, 2, 1]);
+    }
+
+    #[test]
+    fn no_map_is_added_that_is_not_worth_it() {
+        let centers = [DVec3::ZERO, DVec3::X, DVec3::Y];
+        let covered = [
+            vec![true, true, true, false, false, false],
+            vec![true, true, false, true, true, false],
+            vec![false, false, false, false, false, true],
+        ];
+        assert_eq!(greedy(&centers, &covered, 3, 1), [1, 0, 2]);
+        assert_eq!(greedy(&centers, &covered, 3, 2), [1]);
+        // One at least.
+        assert_eq!(greedy(&centers, &covered, 3, 9), [1]);
     }
 
     #[test]
     fn with_nothing_left_to_cover_the_farthest_is_chosen() {
         let centers = [DVec3::ZERO, DVec3::X, 3.0 * DVec3::X];
         let covered = [vec![true], vec![false], vec![false]];
-        assert_eq!(greedy(&centers, &covered, 2), [0, 2]);
+        assert_eq!(greedy(&centers, &covered, 2, 0), [0, 2]);
     }
 }

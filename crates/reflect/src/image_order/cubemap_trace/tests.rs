@@ -415,3 +415,33 @@ fn colours_are_blended_where_they_are_asked_to_be() {
     };
     assert!(steps(&linear.0) < steps(&nearest.0));
 }
+
+#[test]
+fn maps_by_need_are_placed_anew_when_the_view_has_moved() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let mut scene = scene("sphere-table");
+    let spec = parse("cubemap-trace(size=32,objects=auto)").expect("a technique");
+    let ready = |scene: &Scene| crate::prepare(&gpu, &spec, scene, SIZE).expect("fits the device");
+    let picture = |prepared: &mut crate::Prepared<'_>| {
+        let output = prepared.render().expect("renders");
+        (output.frame.color, output.notes)
+    };
+    let mut moving = ready(&scene);
+    let places = |notes: &[String]| {
+        notes
+            .iter()
+            .find(|note| note.starts_with("maps of"))
+            .cloned()
+    };
+    let (_, before) = picture(&mut moving);
+    assert!(places(&before).is_some());
+    let mirror = scene.mirrors[0].shape.center();
+    scene.camera.eye += 0.05 * (scene.camera.eye - mirror);
+    moving.update(&scene).expect("the same scene");
+    assert_eq!(places(&picture(&mut moving).1), places(&before));
+    scene.camera.eye = 2.0 * mirror - scene.camera.eye;
+    moving.update(&scene).expect("the same scene");
+    let moved = picture(&mut moving);
+    assert_eq!(moved, picture(&mut ready(&scene)));
+    assert_ne!(places(&moved.1), places(&before));
+}

@@ -119,20 +119,22 @@ vertex_colors = true
 transform = { scale = [6, 4, 6] }
 
 [[object]]
-name = "balls"
-shape = "sphere"
-segments = 24
+name = "door"
+shape = "box"
 color = [0.8, 0.2, 0.1]
-transform = { scale = 0.5, translate = [2.5, 0.4, 0.6] }
-repeat = [{ count = 2, rotate_deg = [0, -63.0086, 0] }, { count = 2, rotate_deg = [0, 180, 0] }]
+transform = { scale = [0.01, 1.5, 1.2], translate = [5.9, 0.3, 2] }
 
 [[object]]
-name = "ball between"
-shape = "sphere"
-segments = 24
+name = "door's image"
+shape = "box"
+color = [0.8, 0.2, 0.1]
+transform = { scale = [1.2, 1.5, 0.01], translate = [2, 0.3, 5.9] }
+
+[[object]]
+name = "carpet"
+shape = "box"
 color = [0.1, 0.2, 0.8]
-transform = { scale = 0.4, translate = [1.8, -0.6, 1.8] }
-repeat = [{ count = 2, rotate_deg = [0, 180, 0] }]
+transform = { scale = [2, 0.01, 2], translate = [1, -3.95, 1] }
 
 [[mirror]]
 name = "ball"
@@ -203,7 +205,7 @@ color = [0.8, 0.2, 0.1]
 transform = { scale = [6, 1, 6], translate = [0, 2, 0] }
 
 [[object]]
-name = "ball"
+name = "blue ball"
 shape = "sphere"
 segments = 32
 color = [0.1, 0.2, 0.8]

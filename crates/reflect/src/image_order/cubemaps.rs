@@ -1,5 +1,5 @@
 //! Cube maps of the scene: colour, id and world distance seen from several centres, and of the
-//! mirrors, where wanted, their normals too. Read by `shared/maps.wesl`.
+//! mirrors, where wanted, their normals too, among the objects or in maps of their own. Read by `shared/maps.wesl`.
 
 use catoptric_scene::{Scene, View};
 use encase::ShaderType;
@@ -77,6 +77,17 @@ struct MapsUniform {
     count: u32,
     far: f32,
     diagonal: f32,
+    mirrors: u32,
+}
+
+words! {
+    /// Where maps show mirrors.
+    pub(crate) enum MirrorsIn {
+        /// Among the objects, in the maps that rays are traced in.
+        Among = "among",
+        /// In further maps, alone, from the same centres.
+        Apart = "apart",
+    }
 }
 
 /// What a set of cube maps is.
@@ -88,12 +99,36 @@ pub(crate) struct Wanted {
     pub centers: Vec<DVec3>,
     /// Maps that rays are traced in: the first ones.
     pub traced: usize,
-    /// The traced maps show the mirrors, with their normals.
-    pub mirrors: bool,
+    /// Where the mirrors are shown, with their normals; `None` for nowhere.
+    pub mirrors: Option<MirrorsIn>,
 }
 
-/// Bytes of so many cube maps on the device, with normals or without.
-pub(crate) fn bytes(size: u32, count: usize, normals: bool) -> u64 {
+impl Wanted {
+    /// Centres of all maps in the order of their layers.
+    fn all_centers(&self) -> impl Iterator<Item = DVec3> + '_ {
+        let apart = self.mirrors == Some(MirrorsIn::Apart);
+        let again = if apart { self.traced } else { 0 };
+        let again = self.centers[..again].iter();
+        self.centers.iter().chain(again).copied()
+    }
+
+    /// The place of a map among those that show mirrors, if it is one.
+    fn among_mirrored(&self, map: usize) -> Option<usize> {
+        match self.mirrors? {
+            MirrorsIn::Among => (map < self.traced).then_some(map),
+            MirrorsIn::Apart => map.checked_sub(self.centers.len()),
+        }
+    }
+}
+
+/// Bytes of so many cube maps that rays are traced in, with the mirrors' maps and normals.
+pub(crate) fn bytes(size: u32, count: usize, mirrors: Option<MirrorsIn>) -> u64 {
+    let normals = mirrors.is_some();
+    let count = if mirrors == Some(MirrorsIn::Apart) {
+        2 * count
+    } else {
+        count
+    };
     let formats = [FLOAT4, DISTANCE]
         .into_iter()
         .chain(normals.then_some(NORMAL));
@@ -125,7 +160,8 @@ struct Face {
 
 /// What draws mirrors into maps.
 struct Mirrored {
-    objects: wgpu::RenderPipeline,
+    /// Draws the objects among which the mirrors are.
+    objects: Option<wgpu::RenderPipeline>,
     pipelines: MirrorPipelines,
     /// By map, mirror: uniform of the mirror seen from the map's centre, and its group.
     mirrors: Vec<Vec<(wgpu::Buffer, wgpu::BindGroup)>>,
@@ -143,14 +179,14 @@ impl CubeMaps {
     /// Maps that the device cannot hold.
     pub(crate) fn new(gpu: &Gpu, stage: &Stage, wanted: Wanted) -> Result<Self, ReflectError> {
         let world = &stage.world;
-        let layers = FACES * wanted.centers.len() as u32;
+        let layers = FACES * wanted.all_centers().count() as u32;
         let array = |label, format| {
             let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC;
             texture_array(gpu, label, [wanted.size, layers], 1, format, usage)
         };
         let colors = array("map color", FLOAT4);
         let distances = array("map distance", DISTANCE);
-        let normals = wanted.mirrors.then(|| array("map normal", NORMAL));
+        let normals = wanted.mirrors.map(|_| array("map normal", NORMAL));
         gpu.check()?;
         let layer_view = |texture: &wgpu::Texture, layer| {
             texture.create_view(&wgpu::TextureViewDescriptor {
@@ -162,9 +198,9 @@ impl CubeMaps {
         };
         let views = face_views(&world.scene, &wanted);
         let faces = views.iter().zip(0..).map(|(data, layer)| {
-            let traced = layer < FACES * wanted.traced as u32;
+            let mirrored = wanted.among_mirrored((layer / FACES) as usize);
             let textures = [Some(&colors), Some(&distances)];
-            let normals = normals.as_ref().filter(|_| traced);
+            let normals = normals.as_ref().filter(|_| mirrored.is_some());
             let textures = textures.into_iter().chain([normals]).flatten();
             let view = uniform(gpu, data);
             Face {
@@ -174,7 +210,9 @@ impl CubeMaps {
             }
         });
         let faces = faces.collect();
-        let module = module(gpu, "cubemaps", &[])?;
+        let apart = wanted.mirrors == Some(MirrorsIn::Apart);
+        let features: &[&str] = if apart { &["apart"] } else { &[] };
+        let module = module(gpu, "cubemaps", features)?;
         let layouts = [Some(&world.view_layout), None, Some(&world.surface_layout)];
         let entries = |vertex, fragment| RasterEntries {
             module: &module,
@@ -187,7 +225,7 @@ impl CubeMaps {
             centers: storage_bytes(gpu, bytemuck::cast_slice(&center_texels(&wanted))),
             depth: target(gpu, "map depth", [wanted.size; 2], DEPTH),
             objects: raster_to(gpu, plain, &[FLOAT4, DISTANCE], true, &layouts, &[]),
-            mirrored: (wanted.mirrors).then(|| Mirrored::new(gpu, stage, &wanted, &entries)),
+            mirrored: (wanted.mirrors).map(|_| Mirrored::new(gpu, stage, &wanted, &entries)),
             colors,
             distances,
             normals,
@@ -254,15 +292,22 @@ impl CubeMaps {
             let map = layer / FACES as usize;
             let targets: Vec<_> = face.targets.iter().collect();
             let depth = Some((&self.depth, Begin::Clear));
-            let mirrored = self.mirrored.as_ref().filter(|_| map < self.wanted.traced);
+            let mirrored = self.mirrored.as_ref().zip(self.wanted.among_mirrored(map));
+            let objects = match mirrored {
+                Some((mirrored, _)) => mirrored.objects.as_ref(),
+                None => Some(&self.objects),
+            };
             frame.render("maps", &targets, Begin::Clear, depth, |pass| {
-                let objects = mirrored.map_or(&self.objects, |mirrored| &mirrored.objects);
-                pass.set_pipeline(objects);
                 pass.set_bind_group(0, &face.group, &[]);
-                pass.set_bind_group(2, &world.surface_group, &[]);
-                pass.draw(0..world.corners, 0..1);
-                let Some(mirrored) = mirrored else { return };
-                for ((_, group), mirror) in mirrored.mirrors[map].iter().zip(&world.mirrors) {
+                if let Some(objects) = objects {
+                    pass.set_pipeline(objects);
+                    pass.set_bind_group(2, &world.surface_group, &[]);
+                    pass.draw(0..world.corners, 0..1);
+                }
+                let Some((mirrored, index)) = mirrored else {
+                    return;
+                };
+                for ((_, group), mirror) in mirrored.mirrors[index].iter().zip(&world.mirrors) {
                     pass.set_bind_group(1, group, &[]);
                     mirrored.pipelines.draw(pass, mirror);
                 }
@@ -327,8 +372,9 @@ impl Mirrored {
             raster_to(gpu, entries, &formats, true, &layouts, buffers)
         });
         let with_normals = entries("vertex", "objects_and_normals");
+        let among = wanted.mirrors == Some(MirrorsIn::Among);
         Self {
-            objects: raster_to(gpu, with_normals, &formats, true, &objects, &[]),
+            objects: among.then(|| raster_to(gpu, with_normals, &formats, true, &objects, &[])),
             pipelines,
             mirrors: mirrors.collect(),
         }
@@ -349,6 +395,7 @@ fn maps_uniform(scene: &Scene, wanted: &Wanted) -> MapsUniform {
         count: wanted.traced as u32,
         far: far(scene, wanted),
         diagonal: diagonal(scene),
+        mirrors: wanted.centers.len() as u32,
     }
 }
 
@@ -361,17 +408,17 @@ fn far(scene: &Scene, wanted: &Wanted) -> f32 {
 }
 
 fn center_texels(wanted: &Wanted) -> Vec<[f32; 4]> {
-    let texel = |center: &DVec3| center.as_vec3().extend(1.0).to_array();
-    wanted.centers.iter().map(texel).collect()
+    let texel = |center: DVec3| center.as_vec3().extend(1.0).to_array();
+    wanted.all_centers().map(texel).collect()
 }
 
 /// Views through all faces of all maps, in the order of the layers.
 fn face_views(scene: &Scene, wanted: &Wanted) -> Vec<ViewUniform> {
-    let faces = |center: &DVec3| {
-        let views = (0..FACES).map(|face| face_view(*center, face, wanted.size));
+    let faces = |center: DVec3| {
+        let views = (0..FACES).map(|face| face_view(center, face, wanted.size));
         views.collect::<Vec<_>>()
     };
-    let views = wanted.centers.iter().flat_map(faces);
+    let views = wanted.all_centers().flat_map(faces);
     views
         .map(|view| ViewUniform::from_view(scene, &view))
         .collect()
@@ -427,7 +474,8 @@ mod tests {
                     size,
                     count,
                     far,
-                    diagonal
+                    diagonal,
+                    mirrors
                 },
                 program,
                 &["texels"],

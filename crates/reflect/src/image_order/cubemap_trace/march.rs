@@ -7,6 +7,7 @@ use super::options::{
 };
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder, module};
+use crate::image_order::cubemaps::MirrorsIn;
 use crate::image_order::per_pixel::{Pass, PerPixel};
 use crate::stage::Stage;
 use crate::stage::variant::Variant;
@@ -37,7 +38,8 @@ pub(crate) fn features(options: &CubemapTrace) -> Vec<&'static str> {
         (options.pyramid == P::Sound, "sound"),
         (continuous, "continuous"),
         (options.accept == Accept::Any, "any"),
-        (options.shows_mirrors(), "bounce"),
+        (options.mirrors_in().is_some(), "bounce"),
+        (options.mirrors_in() == Some(MirrorsIn::Apart), "apart"),
         (options.restart == Restart::Clear, "clear"),
         (options.filter == Filter::Linear, "linear"),
         (unresolved == U::Best, "best"),

@@ -108,7 +108,7 @@ fn mirrors_maps(
     let scene = &stage.world.scene;
     let trace = TraceUniform::new(options, scene);
     let size = options.maps.size.texels();
-    let fit = |count| gpu.check_memory(bytes(size, count, options.shows_mirrors()));
+    let fit = |count| gpu.check_memory(bytes(size, count, options.mirrors_in()));
     // Before places are looked for, which takes long where there are many mirrors.
     fit(scene.mirrors.len() * options.objects.number().unwrap_or(1))?;
     let places = placement::places(gpu, options, stage)?;
@@ -123,7 +123,7 @@ fn mirrors_maps(
             size,
             centers,
             traced,
-            mirrors: options.shows_mirrors(),
+            mirrors: options.mirrors_in(),
         };
         MirrorMaps::new(gpu, pyramid, &trace, stage, wanted, own_layout)
     });

@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 
-use crate::image_order::cubemaps::MapOptions;
+use crate::image_order::cubemaps::{MapOptions, MirrorsIn};
 use crate::options::{Words, options, words};
 
 words! {
@@ -188,6 +188,8 @@ options! {
         to: u32 = 6 in 0..=10,
         /// rays followed from a pixel; more than one shows mirrors in mirrors
         bounces: u32 = 1 in 1..=16,
+        /// where maps show the mirrors (bounces): among the objects, which hides what is behind them; or apart in maps of their own (ours), the nearer of both hits counting, where backs of mirrors are not met
+        mirrors: MirrorsIn,
         /// share of a second ray's length at which it starts (bounces), 0: by the width of a texel, for all rays
         bias: f64 = 0.0 in 0.0..=0.5,
         /// how a ray gets off the mirror (bounces): by the bias, or no hit counts before a sample that is clear of the surface
@@ -201,9 +203,14 @@ options! {
 }
 
 impl CubemapTrace {
-    /// Rays are followed from mirror to mirror: the maps show the mirrors.
-    pub(crate) fn shows_mirrors(&self) -> bool {
-        self.bounces > 1
+    /// Rays are followed from mirror to mirror: where the maps show the mirrors.
+    pub(crate) fn mirrors_in(&self) -> Option<MirrorsIn> {
+        (self.bounces > 1).then_some(self.mirrors)
+    }
+
+    /// The same if it is among the objects.
+    pub(crate) fn among(&self) -> Option<MirrorsIn> {
+        self.mirrors_in().filter(|shown| *shown == MirrorsIn::Among)
     }
 
     /// Why compute shaders cannot follow rays so.

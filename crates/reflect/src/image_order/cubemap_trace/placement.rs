@@ -2,7 +2,7 @@
 //! or near its surface, far from each other, the most successful first.
 //!
 //! Without a place in the file, candidates are tried out: small maps are drawn from each, with the
-//! mirrors where the traced maps show them, and a small picture says for which mirror pixels the ray
+//! mirrors where the traced maps show them among the objects, and a small picture says for which mirror pixels the ray
 //! is resolved there with certainty (a sign change of Δ where the map is continuous). Then the maps
 //! are chosen greedily, each for the pixels that those before leave; `objects=auto` stops where the next one
 //! is not worth its cost.
@@ -43,7 +43,7 @@ pub(crate) fn places(
 ) -> Result<Vec<Vec<DVec3>>, ReflectError> {
     let number = options.objects.number();
     let most = number.unwrap_or(MOST);
-    let outside = options.shows_mirrors();
+    let outside = options.among().is_some();
     let scene = &stage.world.scene;
     let count = match options.placement {
         Placement::Auto => CANDIDATES,
@@ -79,7 +79,7 @@ pub(crate) fn objection(options: &CubemapTrace, scene: &Scene) -> Option<String>
         return None;
     }
     let wanted = options.objects.number();
-    let outside = options.shows_mirrors();
+    let outside = options.among().is_some();
     scene.mirrors.iter().find_map(|mirror| {
         let (name, listed) = (&mirror.name, mirror.cubemaps.len());
         let least = wanted.unwrap_or(1);
@@ -93,7 +93,7 @@ pub(crate) fn objection(options: &CubemapTrace, scene: &Scene) -> Option<String>
         let taken = wanted.unwrap_or(MOST).min(listed);
         let center = mirror.cubemaps[..taken].iter().find(inside)?;
         Some(format!(
-            "placement=scene: with bounces={} the maps show the mirrors, but the one at {center} lies \
+            "placement=scene: with bounces={},mirrors=among the maps show the mirrors, but the one at {center} lies \
              inside mirror \"{name}\"",
             options.bounces
         ))
@@ -233,7 +233,7 @@ impl<'a> Trial<'a> {
         if options.accept == Accept::Any {
             features.push("strict");
         }
-        if options.shows_mirrors() {
+        if options.among().is_some() {
             features.push("bounce");
         }
         let rays = Effort::new(gpu, &features, &stage, &own_layout)?;
@@ -256,7 +256,7 @@ impl<'a> Trial<'a> {
             size: TRIAL_TEXELS,
             centers: vec![center],
             traced: 1,
-            mirrors: self.options.shows_mirrors(),
+            mirrors: self.options.among(),
         };
         let effort = target(gpu, "trial", self.stage.world.size, FLOAT4);
         let mut covered = vec![Covered::default(); candidates.len()];

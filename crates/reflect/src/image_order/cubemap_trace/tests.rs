@@ -309,7 +309,7 @@ fn the_pyramid_is_that_of_the_cpu() {
         size: 32,
         centers: vec![scene.mirrors[0].shape.center()],
         traced: 1,
-        mirrors: false,
+        mirrors: None,
     };
     let trace = TraceUniform::new(&options, &scene);
     let layout = maps_layout(&gpu, "test", MORE);

@@ -56,14 +56,14 @@ impl Recipe for EnvironmentMap {
         let module = module(gpu, "environment_map", &[])?;
         let own_layout = maps_layout(gpu, "environment map", &[]);
         let count = stage.world.mirrors.len();
-        gpu.check_memory(bytes(self.maps.size.texels(), count, false))?;
+        gpu.check_memory(bytes(self.maps.size.texels(), count, None))?;
         let mut maps = Vec::new();
         for mirror in &stage.world.scene.mirrors {
             let wanted = Wanted {
                 size: self.maps.size.texels(),
                 centers: vec![self.center(mirror)],
                 traced: 1,
-                mirrors: false,
+                mirrors: None,
             };
             let map = CubeMaps::new(gpu, stage, wanted)?;
             let [colors, distances] = map.views();

@@ -20,7 +20,9 @@ const NOT_HIDDEN: f64 = 0.98;
 /// Share of those that the first map resolves.
 const HIDDEN: f64 = 0.02;
 /// Mirror pixels with the right object where rays run along the seams of a map.
-const ALONG_SEAMS: f64 = 0.98;
+const ALONG_SEAMS: f64 = 0.995;
+/// Published skips are not sound: texel by texel they lose a few pixels, in the plane and off it.
+const LOOSE: &str = "sampling=texel,pyramid=published";
 
 fn compare(scenes: &[&str], techniques: &[&str]) -> Vec<Value> {
     measured(scenes, techniques, Some([96, 72]), 0.05)
@@ -162,11 +164,11 @@ fn rays_along_seams_and_edges_are_resolved_as_others_are() {
     let techniques = [
         "sampling=step",
         "pyramid=published",
-        "sampling=texel,pyramid=published",
         "accept=any,pyramid=published",
         "pyramid=sound",
         "sampling=texel,pyramid=sound",
         "stage=compute",
+        LOOSE,
     ];
     let named =
         techniques.map(|options| format!("cubemap-trace(objects=1,placement=scene,{options})"));
@@ -181,12 +183,8 @@ fn rays_along_seams_and_edges_are_resolved_as_others_are() {
     let (within, beside) = rows.split_at(techniques.len());
     let open = |row: &Value| row["coverage"]["unresolved"].as_f64().unwrap_or(0.0);
     for ((within, beside), options) in within.iter().zip(beside).zip(techniques) {
-        assert!(
-            open(within) <= open(beside),
-            "{options}: {} {}",
-            open(within),
-            open(beside)
-        );
+        let all = open(within) <= open(beside) || options == LOOSE;
+        assert!(all, "{options}: {} {}", open(within), open(beside));
         let agreement = number(within, "/object_agreement");
         assert!(agreement >= ALONG_SEAMS, "{options}: {agreement}");
     }
@@ -248,4 +246,39 @@ fn a_map_in_which_a_ray_starts_hidden_is_not_certain() {
             "{options}: {by_map:?}"
         );
     }
+}
+
+#[test]
+fn mirrors_in_maps_of_their_own_show_a_mirror_in_itself() {
+    if !gpu_or_skip() {
+        return;
+    }
+    let techniques = [
+        "cubemap-trace(sampling=texel,pyramid=sound)",
+        "cubemap-trace(sampling=texel,pyramid=sound,bounces=3,mirrors=apart)",
+        "cubemap-trace(bounces=3,mirrors=apart)",
+    ];
+    let rows = compare(&["room"], &techniques);
+    let full = |row: &Value| number(row, "/against_full/object_agreement");
+    assert!(
+        full(&rows[1]) > full(&rows[0]) && full(&rows[2]) > full(&rows[0]),
+        "{rows:?}"
+    );
+}
+
+#[test]
+fn maps_are_added_as_long_as_they_are_worth_it() {
+    if !gpu_or_skip() {
+        return;
+    }
+    let technique =
+        |objects| format!("cubemap-trace(sampling=texel,pyramid=sound,objects={objects})");
+    let named = ["1", "auto"].map(technique);
+    let rows = compare(&["kitchen"], &named.each_ref().map(String::as_str));
+    let open = |row: &Value| row["coverage"]["unresolved"].as_f64().unwrap_or(0.0);
+    let maps = rows[1]["resolved_by"].as_array().map_or(0, Vec::len);
+    assert!((2..8).contains(&maps), "{rows:?}");
+    // The second is worth it by far; what is left by all is not worth another one.
+    assert!(open(&rows[1]) < 0.5 * open(&rows[0]), "{rows:?}");
+    assert!(open(&rows[1]) <= OPEN, "{rows:?}");
 }

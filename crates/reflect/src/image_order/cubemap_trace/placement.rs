@@ -13,7 +13,7 @@ use glam::DVec3;
 
 use super::maps::{MORE, MirrorMaps, TraceUniform};
 use super::march::{self, Effort};
-use super::options::{Accept, CubemapTrace, Placement};
+use super::options::{Accept, CubemapTrace, Objects, Placement};
 use crate::error::ReflectError;
 use crate::gpu::{FLOAT4, Gpu, target, view};
 use crate::image_order::cubemaps::{Wanted, maps_layout};
@@ -26,10 +26,11 @@ const CANDIDATES: usize = 16;
 const MOST: usize = 8;
 /// Share of a mirror's pixels that another map must resolve to be worth it (`objects=auto`).
 const WORTH: f64 = 0.002;
-/// Longer side of the picture in which candidates are tried, pixels.
-const TRIAL_PIXELS: u32 = 64;
-/// Texels a side of the maps that are tried.
-const TRIAL_TEXELS: u32 = 64;
+/// Longer side of the picture in which candidates are tried, pixels, and texels a side of the maps that are
+/// tried.
+const TRIAL_SIDE: u32 = 64;
+/// The same where a gain as small as [`WORTH`] is to be seen.
+const FINE_TRIAL_SIDE: u32 = 128;
 /// Step of trial rays, as a share of their length.
 const TRIAL_STEP: f32 = 0.004;
 /// Seed of the candidates: the same scene has the same maps in every run.
@@ -216,6 +217,8 @@ struct Covered {
 /// A small picture of the scene in which candidates are tried.
 struct Trial<'a> {
     options: &'a CubemapTrace,
+    /// See [`TRIAL_SIDE`].
+    side: u32,
     stage: Stage,
     own_layout: wgpu::BindGroupLayout,
     rays: Effort,
@@ -224,7 +227,12 @@ struct Trial<'a> {
 impl<'a> Trial<'a> {
     fn new(gpu: &Gpu, options: &'a CubemapTrace, stage: &Stage) -> Result<Self, ReflectError> {
         let [width, height] = stage.world.size;
-        let scale = f64::from(TRIAL_PIXELS) / f64::from(width.max(height));
+        let side = if options.objects == Objects::Auto {
+            FINE_TRIAL_SIDE
+        } else {
+            TRIAL_SIDE
+        };
+        let scale = f64::from(side) / f64::from(width.max(height));
         let size = [width, height].map(|side| ((f64::from(side) * scale) as u32).max(1));
         let stage = Stage::new(gpu, stage.options, &stage.world.scene, size)?;
         let own_layout = maps_layout(gpu, "trial", MORE);
@@ -240,6 +248,7 @@ impl<'a> Trial<'a> {
         gpu.run(|frame| stage.begin(frame, Variant::Color));
         Ok(Self {
             options,
+            side,
             stage,
             own_layout,
             rays,
@@ -253,7 +262,7 @@ impl<'a> Trial<'a> {
             ..TraceUniform::new(self.options, &self.stage.world.scene)
         };
         let wanted = |center: DVec3| Wanted {
-            size: TRIAL_TEXELS,
+            size: self.side,
             centers: vec![center],
             traced: 1,
             mirrors: self.options.among(),

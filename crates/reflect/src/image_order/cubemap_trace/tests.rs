@@ -210,6 +210,9 @@ fn maps_stand_where_the_scene_says() {
     // Where the maps show the mirror, they must see it from outside.
     let spec = parse("cubemap-trace(bounces=2,placement=scene)").expect("a technique");
     assert!(reason(&scene, &spec).contains("inside mirror"));
+    let apart =
+        parse("cubemap-trace(bounces=2,placement=scene,mirrors=apart)").expect("a technique");
+    assert_eq!(reason(&scene, &apart), "");
 }
 
 #[test]

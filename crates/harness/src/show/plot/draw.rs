@@ -13,6 +13,9 @@ const LEFT: u32 = 78;
 const BARE: u32 = 12;
 /// Room for the numbers at the x axis, and for its label.
 const BELOW: u32 = 52;
+/// Size of the labels at the axes, and the width of a character as a share of it, about.
+const LABEL: f64 = 17.0;
+const CHARACTER: f64 = 0.52;
 /// Length of the marks at labelled places of an axis.
 const TICK: f64 = 5.0;
 
@@ -171,10 +174,14 @@ impl Plot {
         );
         let [middle_x, middle_y] = [0.5 * (left + right), 0.5 * (top + bottom)];
         let turned_x = f64::from(MARGIN) + 8.0;
+        // A long label along the y axis is set smaller, so that it fits the drawing's height.
+        let characters = self.y.label.chars().count().max(1) as f64;
+        let fitting = (f64::from(height) / (CHARACTER * characters)).min(LABEL);
+        let middle_y = middle_y.max(0.5 * CHARACTER * fitting * characters);
         *body += &format!(
-            "<g font-size=\"17\" fill=\"currentColor\" text-anchor=\"middle\">\n\
+            "<g font-size=\"{LABEL}\" fill=\"currentColor\" text-anchor=\"middle\">\n\
              <text x=\"{middle_x}\" y=\"{}\">{}</text>\n\
-             <text x=\"{turned_x}\" y=\"{middle_y}\" \
+             <text x=\"{turned_x}\" y=\"{middle_y}\" font-size=\"{fitting:.1}\" \
              transform=\"rotate(-90 {turned_x} {middle_y})\">{}</text>\n</g>\n",
             height - MARGIN - 4,
             escape(&self.x.label),

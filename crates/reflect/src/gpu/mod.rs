@@ -9,6 +9,7 @@ mod buffers;
 mod clock;
 mod device;
 mod error;
+mod limits;
 mod pipelines;
 mod read;
 mod recorder;

@@ -3,6 +3,7 @@
 
 use std::path::Path;
 use std::process::{Command, Output};
+use std::sync::OnceLock;
 use std::time::Duration;
 
 use ::catoptric::options::Common;
@@ -40,17 +41,21 @@ pub fn json(output: &Output) -> Value {
 /// True where an adapter is there; false means skip. Fails instead of skipping where
 /// `CATOPTRIC_REQUIRE_GPU=1` says that there must be one.
 pub fn gpu_or_skip() -> bool {
-    let doctor = catoptric(&["doctor", "--quiet"]);
-    if code(&doctor) != 3 {
+    /// Why there is none; asked once, since the program tests its clock before it answers.
+    static MISSING: OnceLock<Option<String>> = OnceLock::new();
+    let missing = MISSING.get_or_init(|| {
+        let doctor = catoptric(&["doctor", "--quiet"]);
+        (code(&doctor) == 3).then(|| stderr(&doctor).to_owned())
+    });
+    let Some(reason) = missing else {
         return true;
-    }
+    };
     let required = std::env::var("CATOPTRIC_REQUIRE_GPU").is_ok_and(|value| value == "1");
     assert!(
         !required,
-        "CATOPTRIC_REQUIRE_GPU=1, and there is no adapter: {}",
-        stderr(&doctor)
+        "CATOPTRIC_REQUIRE_GPU=1, and there is no adapter: {reason}"
     );
-    eprintln!("skipped: {}", stderr(&doctor));
+    eprintln!("skipped: {reason}");
     false
 }
 

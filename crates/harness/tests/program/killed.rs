@@ -1,15 +1,12 @@
 //! A report or bench that is killed over an earlier one: the old page stands whole, or a new one that
 //! says how far it is; every file that it shows is there; nothing unfinished stays.
-#![cfg(unix)]
-
-mod support;
 
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
+use crate::support::{files, gpu_or_skip};
 use serde_json::Value;
-use support::{files, gpu_or_skip};
 
 /// Somebody else's files, which lie where ours do.
 const OTHERS: [&str; 2] = ["holiday.jpg", "pictures/holiday.jpg"];

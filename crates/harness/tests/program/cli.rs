@@ -1,10 +1,8 @@
 //! The program as a user meets it, as far as no adapter is needed: arguments in; exit code, stdout,
 //! stderr and files out.
 
-mod support;
-
+use crate::support::{SIZE, catoptric, code, files, json, refused, stderr, stdout};
 use serde_json::Value;
-use support::{SIZE, catoptric, code, files, json, refused, stderr, stdout};
 
 #[test]
 fn scenes_are_listed_with_what_they_hold() {

@@ -1,10 +1,8 @@
 //! What is written for Mitsuba: complete, and refused where it cannot be.
 
-mod support;
-
 use std::path::Path;
 
-use support::{catoptric, code, files, refused, stderr};
+use crate::support::{catoptric, code, files, refused, stderr};
 
 fn export(scene: &str, folder: &Path, more: &[&str]) {
     let folder = folder.to_str().expect("UTF-8");

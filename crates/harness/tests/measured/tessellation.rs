@@ -1,9 +1,7 @@
 //! Tessellation judged by the truth; skipped without an adapter, unless `CATOPTRIC_REQUIRE_GPU=1`.
 
-mod support;
-
+use crate::support::{gpu_or_skip, measured};
 use serde_json::Value;
-use support::{gpu_or_skip, measured};
 
 fn compare(scene: &str, techniques: &[&str]) -> Vec<Value> {
     measured(&[scene], techniques, Some([320, 240]), 0.01)

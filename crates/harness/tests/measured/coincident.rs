@@ -1,15 +1,13 @@
 //! Surfaces that lie on one another: the reference and the techniques show the same of them, whichever
 //! stands first in a file. Skipped where there is no adapter, unless `CATOPTRIC_REQUIRE_GPU=1`.
 
-mod support;
-
 use std::path::Path;
 
+use crate::support::gpu_or_skip;
 use catoptric_frame::{Frame, Status};
 use catoptric_reference::{RenderOptions, Tracer, Truth};
 use catoptric_reflect::{Gpu, Prefer};
 use catoptric_scene::{LoadOptions, Scene, open};
-use support::gpu_or_skip;
 
 const SIZE: [u32; 2] = [80, 60];
 

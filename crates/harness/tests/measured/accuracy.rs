@@ -1,10 +1,8 @@
 //! How exact the published search is, on the scenes and at the sizes whose figures are known;
 //! skipped where there is no adapter, unless `CATOPTRIC_REQUIRE_GPU=1`.
 
-mod support;
-
+use crate::support::{gpu_or_skip, measured, number};
 use serde_json::Value;
-use support::{gpu_or_skip, measured, number};
 
 const FOUR: &str = "linear";
 const EIGHT: &str = "linear(neighbours=8,residual=cross)";

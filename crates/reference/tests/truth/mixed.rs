@@ -1,14 +1,12 @@
 //! Reflection points on surfaces of mixed curvature, where a vertex may have any number.
 
-mod common;
-
 use std::f64::consts::{PI, TAU};
 
+use crate::common::*;
 use catoptric_frame::VertexClass;
 use catoptric_reference::{Solutions, reflection_points};
 use catoptric_scene::Shape;
 use catoptric_scene::shape::{Plane, Saddle, Sphere, Torus};
-use common::*;
 use glam::{DVec2, DVec3};
 
 fn torus() -> Shape {

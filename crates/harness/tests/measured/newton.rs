@@ -1,8 +1,6 @@
 //! Newton's method between pixels, on points whose reflection points are known.
 
-mod support;
-
-use support::{gpu_or_skip, measured};
+use crate::support::{gpu_or_skip, measured};
 
 /// An f64 program converged for 99.5 % (ellipsoid) and more; here the rim is reached as well.
 const FAILED: f64 = 0.005;

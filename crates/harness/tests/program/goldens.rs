@@ -1,15 +1,13 @@
 //! Small stored pictures of every technique: a picture that changes is seen, and explained in the
-//! change that stores it anew (`CATOPTRIC_ACCEPT=1 cargo test --release --workspace --test goldens`).
+//! change that stores it anew (`CATOPTRIC_ACCEPT=1 cargo test --release --workspace --test program goldens::`).
 //! Skipped without an adapter, unless `CATOPTRIC_REQUIRE_GPU=1`.
-
-mod support;
 
 use std::path::{Path, PathBuf};
 
+use crate::support::{catoptric, code, gpu_or_skip, stderr};
 use catoptric_frame::{Frame, Image, write_png_rgb8};
 use catoptric_metrics::{Colormap, MapKind, compare, error_map};
 use glam::Vec3;
-use support::{catoptric, code, gpu_or_skip, stderr};
 
 /// Scene and technique of each golden; together they show every search, every refinement, every
 /// technique of image order, mirrors of several shapes, several mirrors, and both

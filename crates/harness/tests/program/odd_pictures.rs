@@ -1,16 +1,14 @@
 //! `diff` and `check` on pictures as other programs leave them: headers lost, NaN in them, rounded to
 //! 16 bits, far from the origin. A right picture holds, and of a wrong one it is said what is wrong.
 
-mod support;
-
 use std::path::{Path, PathBuf};
 
+use crate::support::{catoptric, code, files, json, refused, stderr, stdout};
 use catoptric_frame::{Frame, Status};
 use exr::image::{FlatImage, FlatSamples};
 use exr::prelude::{WritableImage, f16, read_all_flat_layers_from_file};
 use glam::Vec3;
 use serde_json::Value;
-use support::{catoptric, code, files, json, refused, stderr};
 use tempfile::TempDir;
 
 /// A ball over a floor, both of them `east` of the origin.
@@ -191,7 +189,7 @@ fn holds(picture: &Path, scene: &Path) -> (bool, String) {
         text(&maps),
     ];
     let output = catoptric(&args);
-    let said = format!("{}{}", support::stdout(&output), stderr(&output));
+    let said = format!("{}{}", stdout(&output), stderr(&output));
     assert!([0, 1].contains(&code(&output)), "{said}");
     (code(&output) == 0, said)
 }

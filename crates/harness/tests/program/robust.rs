@@ -1,12 +1,10 @@
 //! The command line at its edges: arguments that are no text, options that a command cannot use, names
 //! that command a terminal, readers that are gone, signals. No panic, nothing ignored in silence.
 
-mod support;
-
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-use support::{catoptric, code, files, gpu_or_skip, json, refused, stderr, stdout};
+use crate::support::{catoptric, code, files, gpu_or_skip, json, refused, stderr, stdout};
 
 fn program() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_catoptric"));

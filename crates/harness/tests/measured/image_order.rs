@@ -1,10 +1,8 @@
 //! Techniques of image order against the truth; skipped where there is no adapter, unless
 //! `CATOPTRIC_REQUIRE_GPU=1`.
 
-mod support;
-
+use crate::support::{gpu_or_skip, measured, number};
 use serde_json::Value;
-use support::{gpu_or_skip, measured, number};
 
 /// Of techniques that should be exact: rounding at the edges of objects, a pixel in a thousand.
 const EXACT: f64 = 0.999;

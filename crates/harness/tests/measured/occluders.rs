@@ -1,8 +1,6 @@
 //! What stands before a mirror hides pixels of the picture, not texels of the search.
 
-mod support;
-
-use support::{gpu_or_skip, measured, number};
+use crate::support::{gpu_or_skip, measured, number};
 
 #[test]
 fn walks_end_at_outlines_only_on_maps_that_are_cut() {

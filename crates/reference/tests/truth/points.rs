@@ -1,9 +1,8 @@
 //! Exact reflection points against vertices whose reflection is known by construction.
 
-mod common;
-
 use std::f64::consts::PI;
 
+use crate::common::*;
 use catoptric_frame::VertexClass;
 use catoptric_reference::{
     RenderOptions, Solutions, Tracer, Truth, in_view, points_in_view, reflection_points,
@@ -11,7 +10,6 @@ use catoptric_reference::{
 };
 use catoptric_scene::shape::{Bowl, Ellipsoid, Plane, Sphere};
 use catoptric_scene::{Camera, Mesh, Shape};
-use common::*;
 use glam::{DMat3, DVec2, DVec3, Vec3};
 
 fn solve(shape: &Shape, eye: DVec3, vertex: DVec3) -> Solutions {

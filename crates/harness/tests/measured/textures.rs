@@ -1,13 +1,11 @@
 //! Textures on the GPU have the values that the reference sees, of 8 and of 16 bits; skipped where there
 //! is no adapter, unless `CATOPTRIC_REQUIRE_GPU=1`.
 
-mod support;
-
+use crate::support::gpu_or_skip;
 use catoptric_reference::{RenderOptions, Tracer, Truth};
 use catoptric_reflect::{Gpu, Prefer};
 use catoptric_scene::{LoadOptions, open};
 use image::{ImageBuffer, Rgb};
-use support::gpu_or_skip;
 
 const SIZE: [u32; 2] = [64, 48];
 

@@ -1,11 +1,9 @@
 //! The ray hierarchy's published flaws, on points whose reflection points are known.
 
-mod support;
-
 use std::ops::RangeInclusive;
 
+use crate::support::{gpu_or_skip, measured};
 use serde_json::Value;
-use support::{gpu_or_skip, measured};
 
 /// How far a measured value may be from the expected one, as a share of it: the expected values
 /// come from an independent f64 program and other random vertices of the same distribution.

@@ -1,16 +1,14 @@
 //! Commands that need an adapter; skipped where there is none, unless `CATOPTRIC_REQUIRE_GPU=1`.
 
-mod support;
-
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::time::Duration;
 
+use crate::support::{SIZE, catoptric, code, gpu_or_skip, json, stderr, stdout};
 use ::catoptric::record::schema;
 use catoptric_frame::Frame;
 use catoptric_frame::png::srgb8_from_linear;
 use serde_json::Value;
-use support::{SIZE, catoptric, code, gpu_or_skip, json, stderr, stdout};
 
 #[test]
 fn records_keep_to_the_schema_in_the_order_asked_for() {
@@ -323,7 +321,7 @@ fn frames_give_jitter_and_a_still_scene_has_none() {
     }
     // Something is said to move, and goes nowhere.
     let still = "\n[motion]\nframes = 3\n[[motion.move]]\nname = \"ball\"\ntranslate = [0, 0, 0]\n";
-    let text = include_str!("../../../scenes/sphere-table.toml").to_owned() + still;
+    let text = include_str!("../../../../scenes/sphere-table.toml").to_owned() + still;
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("still.toml");
     std::fs::write(&path, text).expect("a scene file");

@@ -2,10 +2,8 @@
 //! there are clipped where their virtual images are. Skipped where there is no adapter, unless
 //! `CATOPTRIC_REQUIRE_GPU=1`.
 
-mod support;
-
+use crate::support::{gpu_or_skip, measured};
 use serde_json::Value;
-use support::{gpu_or_skip, measured};
 
 /// A ball beside the eye, a floor under both and a wall to the left; squares of three units, so
 /// that those at the right edge of the picture go far behind the eye.

@@ -1,12 +1,10 @@
 //! The ray tracer against closed forms and hand-made scenes.
 
-mod common;
-
+use crate::common::*;
 use catoptric_frame::Status;
 use catoptric_reference::{RayStart, ReferenceError, RenderOptions, Surface, Tracer, Truth};
 use catoptric_scene::shape::{Plane, Sphere};
 use catoptric_scene::{Background, Mesh, Paint, Scene, Shape};
-use common::*;
 use glam::{DVec2, DVec3, Vec3};
 
 const FIRST: Truth = Truth::FirstBounce;

@@ -1,5 +1,4 @@
 //! Scenes by hand and numbers by seed, for the tests of this crate.
-#![allow(dead_code, reason = "each test file uses its own part")]
 
 use std::f64::consts::PI;
 

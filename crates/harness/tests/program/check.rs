@@ -1,11 +1,9 @@
 //! The truth against Mitsuba's stored pictures, on a machine without Mitsuba; and that a scene which
 //! is not the one in the picture is noticed.
 
-mod support;
-
 use std::path::{Path, PathBuf};
 
-use support::{catoptric, code, files, json, refused, stderr, stdout};
+use crate::support::{catoptric, code, files, json, refused, stderr, stdout};
 use tempfile::TempDir;
 
 fn reference() -> PathBuf {

@@ -1,0 +1,15 @@
+//! The program as it is run: arguments in; exit code, text and files out.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod check;
+mod cli;
+mod export;
+mod goldens;
+#[cfg(unix)]
+mod killed;
+mod measuring;
+mod odd_pictures;
+mod robust;
+mod rooms;

@@ -1,0 +1,9 @@
+//! The truth: the tracer and the exact reflection points against closed forms and each other.
+
+mod common;
+mod mixed;
+mod motion;
+mod points;
+mod scenes;
+mod thesis_scenes;
+mod tracer;

@@ -35,6 +35,7 @@ pub use prepared::Prepared;
 pub use registry::list;
 pub use search::reflector_cubemap::twin::{CubemapAnswer, CubemapStep, CubemapWalk};
 pub use spec::{Options, Spec, SpecError};
+pub use stage::STAGE_PASSES;
 pub use technique::{Family, Output, Properties, TechniqueInfo};
 
 use catoptric_scene::Scene;

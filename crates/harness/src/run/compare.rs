@@ -21,6 +21,13 @@ pub struct Compared {
     pub(super) pixel_angle: Option<Summary>,
 }
 
+impl Compared {
+    /// Against the truth that techniques are judged by.
+    pub fn first(&self) -> &Comparison {
+        &self.first
+    }
+}
+
 /// Compares a technique's picture and reflection points with the truth.
 pub fn compare(scene: &Scene, truth: &Truth, output: &Output) -> Result<Compared, RowError> {
     let failed = |error: catoptric_metrics::MetricsError| (Status::Failed, error.to_string());

@@ -3,7 +3,9 @@
 use std::time::Instant;
 
 use catoptric_frame::Traced;
-use catoptric_reflect::{Answer, Gpu, Output, Prepared, Question, ReflectError, Spec, Support};
+use catoptric_reflect::{
+    Answer, FrameTime, Gpu, Output, Prepared, Question, ReflectError, Spec, Support,
+};
 use catoptric_scene::Scene;
 
 use crate::record::{Status, Steadiness};
@@ -29,6 +31,14 @@ impl Rendered<'_> {
     /// As when preparing.
     pub fn ask(&self, question: Question) -> Result<Option<Answer>, ReflectError> {
         self.prepared.ask(question)
+    }
+
+    /// Renders and times what an application would draw.
+    ///
+    /// # Errors
+    /// Whatever fails on the device.
+    pub fn time_frame(&mut self) -> Result<FrameTime, ReflectError> {
+        self.prepared.time_frame()
     }
 }
 

@@ -28,6 +28,7 @@
 //!
 //! The report is two suites, [`report::QUICK`] and [`report::FULL`], with a page by scenes.
 
+pub mod benched;
 mod control;
 mod cubemap;
 mod estalella;

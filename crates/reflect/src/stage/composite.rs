@@ -78,7 +78,7 @@ impl Composite {
 
     pub(crate) fn record(&self, frame: &mut Recorder<'_>, world: &World) {
         let target = view(&self.color);
-        frame.render("composite", &[&target], Begin::Clear, None, |pass| {
+        frame.render(super::COMPOSITE, &[&target], Begin::Clear, None, |pass| {
             pass.set_pipeline(&self.pipeline);
             pass.set_bind_group(0, &world.view_group, &[]);
             pass.set_bind_group(1, &self.group, &[]);

@@ -31,6 +31,12 @@ use options::{Occluders, SearchOptions, StageOptions, Surface};
 use primary::Primary;
 use world::World;
 
+const PRIMARY: &str = "primary";
+const GBUFFER: &str = "gbuffer";
+const COMPOSITE: &str = "composite";
+/// Names of the passes that every technique's frame has, whatever the technique; all others are its own.
+pub const STAGE_PASSES: [&str; 3] = [PRIMARY, GBUFFER, COMPOSITE];
+
 /// The passes before and after a technique's own.
 pub(crate) struct Stage {
     pub options: StageOptions,
@@ -102,7 +108,7 @@ impl Stage {
         self.primary.record(frame, &self.world, variant);
         let depth = (&self.primary.depth, Begin::Keep);
         let all = 0..self.world.mirrors.len();
-        (self.gbuffer).record(frame, "gbuffer", &self.world, all, depth);
+        (self.gbuffer).record(frame, GBUFFER, &self.world, all, depth);
     }
 
     /// The picture with its reflections.

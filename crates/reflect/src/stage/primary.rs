@@ -61,7 +61,7 @@ impl Primary {
         }
         let draw = draw(&self.draw_color);
         frame.render(
-            "primary",
+            super::PRIMARY,
             &[&view(&self.color)],
             Begin::Clear,
             cleared,

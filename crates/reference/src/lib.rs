@@ -23,6 +23,8 @@ pub mod tracer;
 mod triangles;
 
 pub use error::{NotAvailable, ReferenceError};
-pub use points::{Solutions, in_view, points_in_view, reflection_points, true_vertices};
+pub use points::{
+    Solutions, in_view, points_in_view, reflection_points, reflections, true_vertices,
+};
 pub use render::{PixelTrace, Reflection, RenderOptions, Truth};
 pub use tracer::{Hit, RayStart, Surface, Tracer};

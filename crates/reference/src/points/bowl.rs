@@ -19,11 +19,7 @@ impl ExactPoints for Bowl {
             half_angle,
         } = *self;
         if eye == center && vertex == center {
-            let points = vec![center + radius * axis];
-            return Solutions {
-                class: VertexClass::Reflected,
-                points,
-            };
+            return Solutions::at(vec![center + radius * axis]);
         }
         let rim = half_angle.cos();
         let points = solve(center, radius, eye, vertex, -1.0, axis);

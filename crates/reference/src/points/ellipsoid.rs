@@ -47,12 +47,9 @@ impl ExactPoints for Ellipsoid {
         let unit = path.minimize(start);
         let nearest = path.legs(unit)[0].1.min(path.legs(unit)[1].1);
         if path.residual(unit) > RESIDUAL + ROUNDING / nearest {
-            return Solutions::none(VertexClass::Unknown);
+            return Solutions::undecided(1);
         }
-        Solutions {
-            class: VertexClass::Reflected,
-            points: vec![center + rotation * (unit * radii)],
-        }
+        Solutions::at(vec![center + rotation * (unit * radii)])
     }
 }
 

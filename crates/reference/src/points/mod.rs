@@ -3,8 +3,8 @@
 //! A point `R` of a mirror reflects vertex `V` to eye `O` where the bisector of the directions
 //! to both is the normal `N` of the reflecting side, and both lie in front: `N·(O−R) > 0` and
 //! `N·(V−R) > 0`. Objects do not occlude here, nor does the mirror itself (the outside of a bowl
-//! may well hide its inside), but for the eye's view of a torus or a saddle, whose front may hide
-//! its front.
+//! may well hide its inside), but for the eye's view of a torus, a saddle or a mesh, whose front may
+//! hide its front.
 //!
 //! Each shape has a file of its own, named as in `scene::shape`, and a line in the function `exact`:
 //! - sphere and bowl: the roots of Alhazen's quartic, all of them (`alhazen`);
@@ -12,7 +12,8 @@
 //! - ellipsoid: the minimum of a convex function;
 //! - torus and saddle: all stationary points, by dividing the surface until each part is settled
 //!   (`stationary`);
-//! - mesh: not available, for its interpolated normals belong to no surface.
+//! - mesh: the points whose interpolated normal reflects the eye's ray into the vertex, all of them, by
+//!   dividing the triangles that a hierarchy leaves (`mesh`).
 //!
 //! Regions are those of Estalella et al., "Accurate Interactive Specular Reflections on Curved
 //! Objects", VMV 2005, §6.1. World space throughout.
@@ -20,6 +21,7 @@
 mod alhazen;
 mod bowl;
 mod ellipsoid;
+mod mesh;
 mod patch;
 mod plane;
 mod quartic;
@@ -34,41 +36,55 @@ use catoptric_scene::{Scene, Shape, View};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
+use self::mesh::MeshPoints;
 use self::solutions::ExactPoints;
 pub use self::solutions::Solutions;
 use crate::error::NotAvailable;
 
-/// A shape's exact solver, if it has one: a line for each.
-fn exact(shape: &Shape) -> Result<&dyn ExactPoints, NotAvailable> {
+/// A shape's exact solver, if it has one: a line for each. A mesh is made ready for the eye.
+fn exact(shape: &Shape, eye: DVec3) -> Result<Box<dyn ExactPoints + '_>, NotAvailable> {
     Ok(match shape {
-        Shape::Sphere(sphere) => sphere,
-        Shape::Ellipsoid(ellipsoid) => ellipsoid,
-        Shape::Plane(plane) => plane,
-        Shape::Bowl(bowl) => bowl,
-        Shape::Torus(torus) => torus,
-        Shape::Saddle(saddle) => saddle,
-        other if other.is_analytic() => {
-            let why = format!("they are not known of a {}", other.name());
-            return Err(NotAvailable(why));
-        }
-        _ => {
-            let why = "a mesh mirror has interpolated normals, which belong to no exact surface";
-            return Err(NotAvailable(why.into()));
-        }
+        Shape::Sphere(sphere) => Box::new(sphere),
+        Shape::Ellipsoid(ellipsoid) => Box::new(ellipsoid),
+        Shape::Plane(plane) => Box::new(plane),
+        Shape::Bowl(bowl) => Box::new(bowl),
+        Shape::Torus(torus) => Box::new(torus),
+        Shape::Saddle(saddle) => Box::new(saddle),
+        other => match other.as_mesh() {
+            Some(mesh) => Box::new(MeshPoints::new(mesh, eye)),
+            None => {
+                let why = format!("they are not known of a {}", other.name());
+                return Err(NotAvailable(why));
+            }
+        },
     })
 }
 
 /// All points of the mirror at which `eye` sees `vertex` reflected, occlusion-free.
 ///
+/// A mesh is made ready for the eye at each call: for many vertices ask [`reflections`].
+///
 /// # Errors
-/// For mesh mirrors. Of a single vertex that cannot be decided, the class is
+/// For shapes without exact points. Of a single vertex that cannot be decided, the class is
 /// [`VertexClass::Unknown`].
 pub fn reflection_points(
     shape: &Shape,
     eye: DVec3,
     vertex: DVec3,
 ) -> Result<Solutions, NotAvailable> {
-    Ok(exact(shape)?.points(eye, vertex))
+    Ok(exact(shape, eye)?.points(eye, vertex))
+}
+
+/// As [`reflection_points`], for many vertices and one eye.
+///
+/// # Errors
+/// For shapes without exact points.
+pub fn reflections(
+    shape: &Shape,
+    eye: DVec3,
+) -> Result<impl Fn(DVec3) -> Solutions + Sync + '_, NotAvailable> {
+    let exact = exact(shape, eye)?;
+    Ok(move |vertex| exact.points(eye, vertex))
 }
 
 /// The exact answer for every (mirror, object vertex) pair: mirrors outer, then objects, then
@@ -84,7 +100,7 @@ pub fn true_vertices(scene: &Scene, view: &View) -> Result<Vec<TrueVertex>, NotA
     let mirrors: Vec<_> = scene
         .mirrors
         .iter()
-        .map(|mirror| exact(&mirror.shape))
+        .map(|mirror| exact(&mirror.shape, view.eye))
         .collect();
     if mirrors.iter().all(Result::is_err) {
         let first = mirrors.into_iter().find_map(Result::err);

@@ -10,6 +10,12 @@ pub(super) trait ExactPoints: Sync {
     fn points(&self, eye: DVec3, vertex: DVec3) -> Solutions;
 }
 
+impl<T: ExactPoints> ExactPoints for &T {
+    fn points(&self, eye: DVec3, vertex: DVec3) -> Solutions {
+        (*self).points(eye, vertex)
+    }
+}
+
 /// All reflection points of a vertex, whatever may stand in between.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solutions {
@@ -17,6 +23,9 @@ pub struct Solutions {
     pub class: VertexClass,
     /// World-space points; empty unless `class` is `Reflected`.
     pub points: Vec<DVec3>,
+    /// Parts of the mirror of which it could not be decided whether they hold a point: two points are
+    /// about to meet there.
+    pub undecided: u64,
 }
 
 impl Solutions {
@@ -24,6 +33,24 @@ impl Solutions {
         Self {
             class,
             points: Vec::new(),
+            undecided: 0,
+        }
+    }
+
+    /// `Reflected` in these points.
+    pub(super) fn at(points: Vec<DVec3>) -> Self {
+        Self {
+            class: VertexClass::Reflected,
+            points,
+            undecided: 0,
+        }
+    }
+
+    /// Nothing is known, because of so many parts of the mirror.
+    pub(super) fn undecided(parts: u64) -> Self {
+        Self {
+            undecided: parts,
+            ..Self::none(VertexClass::Unknown)
         }
     }
 
@@ -37,10 +64,7 @@ impl Solutions {
         if points.is_empty() {
             return Self::none(VertexClass::Unreflected);
         }
-        Self {
-            class: VertexClass::Reflected,
-            points,
-        }
+        Self::at(points)
     }
 }
 

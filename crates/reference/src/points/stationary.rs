@@ -75,7 +75,7 @@ pub(super) fn reflection_points(
                 }
             }
             Verdict::Divide if radius < SMALLEST * size || looked_at > MOST_PARTS => {
-                return Solutions::none(VertexClass::Unknown);
+                return Solutions::undecided(1 + parts.len() as u64);
             }
             Verdict::Divide => parts.extend(part.quarters()),
         }
@@ -94,7 +94,11 @@ pub(super) fn reflection_points(
     if points.is_empty() && class == VertexClass::Reflected {
         return Solutions::none(VertexClass::Hidden);
     }
-    Solutions { class, points }
+    Solutions {
+        class,
+        points,
+        undecided: 0,
+    }
 }
 
 /// A rectangle of parameters.

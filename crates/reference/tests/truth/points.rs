@@ -9,7 +9,7 @@ use catoptric_reference::{
     true_vertices,
 };
 use catoptric_scene::shape::{Bowl, Ellipsoid, Plane, Sphere};
-use catoptric_scene::{Camera, Mesh, Shape};
+use catoptric_scene::{Camera, Shape};
 use glam::{DMat3, DVec2, DVec3, Vec3};
 
 fn solve(shape: &Shape, eye: DVec3, vertex: DVec3) -> Solutions {
@@ -393,27 +393,6 @@ fn plane_has_the_mirror_image() {
         solve(&plane, -eye, DVec3::new(0.0, 2.0, 0.0)).class,
         VertexClass::Hidden
     );
-}
-
-#[test]
-fn meshes_have_no_exact_points() {
-    let mesh = Shape::Mesh(Mesh::default());
-    let error = reflection_points(&mesh, DVec3::Z, DVec3::Y).unwrap_err();
-    assert!(error.to_string().contains("mesh mirror"), "{error}");
-    let points = || object("point", vec![Vec3::new(0.0, 0.0, 3.0)], vec![], Vec3::ONE);
-    let of = |mirrors| {
-        let scene = scene(
-            camera([0.0, 0.0, 4.0], 30.0, [8, 8]),
-            vec![points()],
-            mirrors,
-        );
-        true_vertices(&scene, &scene.camera.view([8, 8]))
-    };
-    assert!(of(vec![mesh.clone()]).is_err());
-    // Another mirror's are not lost for it.
-    let classes = of(vec![unit_sphere(), mesh]).unwrap();
-    let classes: Vec<_> = classes.iter().map(|vertex| vertex.class).collect();
-    assert_eq!(classes, [VertexClass::Reflected, VertexClass::Unknown]);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The built-in scenes: they render, and the two halves of this crate agree on them.
 
 use catoptric_frame::Status;
-use catoptric_reference::{RenderOptions, Surface, Tracer, Truth, reflection_points};
+use catoptric_reference::{RenderOptions, Surface, Tracer, Truth, reflection_points, reflections};
 use catoptric_scene::{LoadOptions, Scene, builtin};
 use glam::{DVec2, DVec3};
 
@@ -64,6 +64,10 @@ fn traced_reflections_are_exact_reflection_points() {
     for scene in &scenes() {
         let tracer = Tracer::new(scene).unwrap();
         let view = scene.camera.view(SIZE);
+        let mirrors = scene.mirrors.iter();
+        let solvers: Vec<_> = mirrors
+            .map(|mirror| reflections(&mirror.shape, view.eye).unwrap())
+            .collect();
         for index in 0..SIZE[0] * SIZE[1] {
             let at = DVec2::new(f64::from(index % SIZE[0]), f64::from(index / SIZE[0])) + 0.5;
             let trace = tracer.reflect_pixel(&view, at, Truth::FirstBounce);
@@ -74,15 +78,20 @@ fn traced_reflections_are_exact_reflection_points() {
             let Surface::Mirror { index, .. } = primary.surface else {
                 unreachable!()
             };
-            let shape = &scene.mirrors[index].shape;
-            let Ok(found) = reflection_points(shape, view.eye, hit.position) else {
-                assert!(!shape.is_analytic(), "{}: {:?}", scene.name, hit.position);
-                continue;
-            };
+            let found = solvers[index](hit.position);
             let off = |point: &DVec3| point.distance(primary.position);
             let nearest = found.points.iter().map(off).fold(f64::INFINITY, f64::min);
-            // Next to a caustic two solutions meet, and lose half their digits.
-            assert!(nearest < 1e-7, "{} at {at}: off by {nearest:e}", scene.name);
+            // Next to a caustic two solutions meet, and lose half their digits; the stored normals of
+            // facets, which rays are reflected at, are rounded to f32.
+            let limit = match scene.mirrors[index].shape.is_analytic() {
+                true => 1e-7,
+                false => 4e-7,
+            };
+            assert!(
+                nearest < limit,
+                "{} at {at}: off by {nearest:e}",
+                scene.name
+            );
             checked += 1;
         }
     }

@@ -13,7 +13,7 @@ use std::time::Duration;
 
 use catoptric_reference::{RenderOptions, Tracer, Truth, reflections};
 use catoptric_scene::shape::{Bowl, Ellipsoid, Sphere};
-use catoptric_scene::{MirrorShape, Scene, Shape};
+use catoptric_scene::{Scene, Shape};
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use glam::{DMat3, DVec3};
 use load::{Ray, Rays};

@@ -69,6 +69,15 @@ pub fn compare_with(
     })
 }
 
+/// Share of the mirror pixels where both frames show the same object; `None` without mirror pixels.
+///
+/// # Errors
+/// Frames of different sizes, or without layers.
+pub fn object_agreement(reference: &Frame, test: &Frame) -> Result<Option<f64>, MetricsError> {
+    let layers = Layers::new(reference, test)?;
+    Ok(agreement(&layers, |_| true).1)
+}
+
 /// Colour error on the pixels where `mask` is true; `None` if it has no pixel to compare.
 pub fn compare_color(
     reference: &Image<Vec3>,
@@ -83,16 +92,23 @@ pub fn compare_color(
 }
 
 fn region(layers: &Layers, colors: &ColorMaps, includes: impl Fn(usize) -> bool) -> Region {
-    let pixels = || layers.mirror_pixels().filter(|&index| includes(index));
-    let count = pixels().count() as u64;
-    let agreeing = pixels().filter(|&index| layers.agree(index)).count() as u64;
-    let angles = pixels().filter_map(|index| layers.angular_error_deg(index));
+    let pixels = layers.mirror_pixels().filter(|&index| includes(index));
+    let angles = pixels.filter_map(|index| layers.angular_error_deg(index));
+    let (mirror_pixels, object_agreement) = agreement(layers, &includes);
     Region {
-        mirror_pixels: count,
-        object_agreement: share(agreeing, count),
+        mirror_pixels,
+        object_agreement,
         angular_error_deg: Summary::of(angles.filter(|angle| angle.is_finite())),
         color: colors.over(&includes),
     }
+}
+
+/// How many mirror pixels a part has, and the share of them that agrees.
+fn agreement(layers: &Layers, includes: impl Fn(usize) -> bool) -> (u64, Option<f64>) {
+    let pixels = || layers.mirror_pixels().filter(|&index| includes(index));
+    let count = pixels().count() as u64;
+    let agreeing = pixels().filter(|&index| layers.agree(index)).count() as u64;
+    (count, share(agreeing, count))
 }
 
 fn coverage(layers: &Layers, options: &CompareOptions) -> Coverage {

@@ -20,7 +20,7 @@ pub mod stats;
 pub mod temporal;
 pub mod vertices;
 
-pub use compare::{CompareOptions, compare, compare_color, compare_with};
+pub use compare::{CompareOptions, compare, compare_color, compare_with, object_agreement};
 pub use flip::{FlipStats, flip};
 pub use maps::{
     Colormap, CoverageClass, MapKind, color_bar, colorize, colorize_coverage, error_map,

@@ -1,5 +1,7 @@
 //! The scenes that come with the program.
 
+mod moving;
+
 use crate::{LoadOptions, Scene};
 
 /// What `list scenes` says of a built-in scene.
@@ -140,7 +142,7 @@ pub fn names() -> Vec<String> {
         let sizes = family.sizes.iter();
         sizes.map(|(size, _)| format!("{}{size}", family.prefix))
     });
-    files.chain(families).collect()
+    files.chain(families).chain(moving::names()).collect()
 }
 
 /// The scene file of a built-in scene.
@@ -148,13 +150,14 @@ pub fn text(name: &str) -> Option<String> {
     if let Some((_, text)) = SCENES.iter().find(|(known, _)| *known == name) {
         return Some((*text).to_owned());
     }
-    FAMILIES.iter().find_map(|family| {
+    let sized = FAMILIES.iter().find_map(|family| {
         let size = name.strip_prefix(family.prefix)?;
         let (_, number) = family.sizes.iter().find(|(known, _)| *known == size)?;
         let (key, own) = family.line;
         let [own, new] = [own, *number].map(|number| format!("\n{key} = {number}"));
         Some(family.template.replacen(&own, &new, 1))
-    })
+    });
+    sized.or_else(|| moving::text(name))
 }
 
 /// Every built-in scene, loaded to be counted.

@@ -1,6 +1,7 @@
 //! Motion: where camera, objects and mirrors are from frame to frame.
 //!
-//! Time runs evenly from 0 at the first frame, which is the scene as written, to 1 at the last.
+//! Time runs from 0 at the first frame, which is the scene as written, to 1 at the last: evenly, or
+//! in steps that grow.
 //! Everything that moves does so rigidly, and a moved mesh keeps its vertices in their order, so
 //! that a vertex is the same one in all frames.
 
@@ -15,6 +16,8 @@ use crate::{Camera, Scene};
 pub struct Motion {
     /// Frames of the whole sequence, at least 2.
     pub frames: u32,
+    /// How many times as long each step of time is as the one before; 1: time runs evenly.
+    pub growth: f64,
     /// Where the camera goes.
     pub camera: CameraPath,
     /// What else moves: at most one entry for each object and mirror.
@@ -105,7 +108,11 @@ impl Motion {
     /// Time in [0, 1] of a frame.
     pub fn time(&self, frame: u32) -> f64 {
         let last = self.frames.max(2) - 1;
-        f64::from(frame.min(last)) / f64::from(last)
+        let (frame, last) = (f64::from(frame.min(last)), f64::from(last));
+        if self.growth == 1.0 {
+            return frame / last;
+        }
+        (self.growth.powf(frame) - 1.0) / (self.growth.powf(last) - 1.0)
     }
 
     /// The camera at a time, from where it starts.
@@ -169,6 +176,28 @@ fn spline(points: &[DVec3], time: f64) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn each_step_of_time_is_so_many_times_the_one_before() {
+        for growth in [1.0, 1.8, 0.5] {
+            let motion = Motion {
+                frames: 12,
+                growth,
+                camera: CameraPath::Still,
+                moves: Vec::new(),
+            };
+            assert_eq!(
+                [motion.time(0), motion.time(11), motion.time(99)],
+                [0.0, 1.0, 1.0]
+            );
+            let steps: Vec<_> = (1..12)
+                .map(|frame| motion.time(frame) - motion.time(frame - 1))
+                .collect();
+            for pair in steps.windows(2) {
+                assert!((pair[1] / pair[0] - growth).abs() < 1e-9, "{steps:?}");
+            }
+        }
+    }
 
     #[test]
     fn a_spline_meets_its_points_and_is_straight_between_two() {

@@ -116,6 +116,8 @@ pub struct Steadiness {
     /// Jitter and jumps of the reflection points.
     #[serde(flatten)]
     pub points: Temporal,
+    /// Smallest share of mirror pixels that show the right object, over the frames.
+    pub object_agreement_min: Option<f64>,
     /// Median GPU time of a moving frame in milliseconds; `None` without a usable clock.
     pub frame_ms: Option<f64>,
     /// The same of frames at rest, timed right before and after.

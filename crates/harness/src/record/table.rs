@@ -202,6 +202,8 @@ pub const ENTRIES: &[Entry] = &[
         "the change of a vertex' error from one frame to the next"), JITTER, &["mean"]),
     One(row("temporal.jumps", "jumps", "share of jumps above 2 px", Share, Low,
         "Share of the changes from frame to frame that are above 2 px."), true),
+    One(row("temporal.object_agreement_min", "least agree", "smallest share of mirror pixels with the right object, over the frames", Share, High,
+        "Smallest share of mirror pixels that show the right object, over the frames that were followed."), true),
     One(row("temporal.frame_ms", "moving", "time of a moving frame", Milliseconds, Low,
         "Median GPU time of a moving frame."), false),
     One(row("temporal.still_ms", "still", "time of a still frame", Milliseconds, Low,

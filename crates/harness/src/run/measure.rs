@@ -84,12 +84,8 @@ pub fn measure(
 
             let moving = scene.motion.is_some();
             if let Some(frames) = job.frames.filter(|_| moving) {
-                for (spec, row) in techniques.iter().zip(&mut rendered) {
-                    doing(&format!("following {spec} over {frames} frames"));
-                    if let Err(blank) = follow(row, scene, frames) {
-                        *row = Err(blank);
-                    }
-                }
+                doing(&format!("following {frames} frames"));
+                follow(&mut rendered, scene, frames)?;
             }
 
             let first = rows.len();

@@ -1,15 +1,17 @@
-//! `--frames N`: a technique followed over the frames of a scene's motion.
+//! `--frames N`: techniques followed over the frames of a scene's motion.
 //!
 //! Frame 0 is the scene as written. Each technique walks through the frames twice: once with all
-//! layers, where each vertex' error (found − true, in pixels) is followed from frame to frame, and
-//! once as an application would draw, to be timed, between as many frames at rest. Where something is carried from one frame to
-//! the next (`start=previous`), it is so in both.
+//! layers, where its picture is judged by the reference of that frame and each vertex' error (found −
+//! true, in pixels) is followed from frame to frame, and once as an application would draw, to be
+//! timed, between as many frames at rest. Where something is carried from one frame to the next
+//! (`start=previous`), it is so in both.
 
-use catoptric_frame::Frame;
-use catoptric_metrics::{Timing, temporal, vertex_errors};
-use catoptric_reference::true_vertices;
-use catoptric_reflect::{Output, Prepared};
+use catoptric_frame::{Frame, TrueVertex};
+use catoptric_metrics::{MetricsError, Timing, object_agreement, temporal, vertex_errors};
+use catoptric_reference::{NotAvailable, RenderOptions, Tracer, Truth, true_vertices};
+use catoptric_reflect::Output;
 use catoptric_scene::Scene;
+use glam::DVec2;
 
 use crate::record::{Status, Steadiness};
 
@@ -18,74 +20,125 @@ use super::interrupt::interrupted;
 use super::load::size;
 use super::render::{Rendered, RowError, one_line};
 
-/// Follows a technique over `frames` frames of the scene's motion.
-pub fn follow(
-    rendered: &mut Result<Rendered<'_>, RowError>,
-    scene: &Scene,
-    frames: u32,
-) -> Result<(), RowError> {
-    if let Ok(rendered) = rendered {
-        rendered.temporal = steadiness(&mut rendered.prepared, scene, frames)?;
-    }
-    Ok(())
+/// What was seen of a technique over the frames so far.
+#[derive(Default)]
+struct Seen {
+    /// Found − true of every pair, by frame; empty where the technique searches no vertices, or
+    /// where their exact reflection points are not known.
+    errors: Vec<Vec<Option<DVec2>>>,
+    frames: u64,
+    object_agreement_min: Option<f64>,
+    /// From the second frame on.
+    evaluations: Vec<f64>,
+    steps: Vec<f64>,
 }
 
-/// Follows a technique over `frames` frames; an interrupt ends the sequence early. `None` where
-/// the technique searches no vertices, or where their exact reflection points are not known.
-fn steadiness(
-    prepared: &mut Prepared<'_>,
+/// Follows techniques over `frames` frames of the scene's motion, all of them through a frame
+/// before the next, so that each frame's truth is found once. An interrupt ends the sequence early.
+///
+/// # Errors
+/// A scene that cannot be traced. What breaks in one technique breaks its row alone.
+pub fn follow(
+    rows: &mut [Result<Rendered<'_>, RowError>],
     scene: &Scene,
     frames: u32,
-) -> Result<Option<Steadiness>, RowError> {
-    let failed = |error: &dyn std::error::Error| (Status::Failed, one_line(error));
-    let mut errors = Vec::new();
-    let (mut evaluations, mut steps) = (Vec::new(), Vec::new());
+) -> anyhow::Result<()> {
+    let mut seen: Vec<Seen> = rows.iter().map(|_| Seen::default()).collect();
     for frame in 0..frames {
         if interrupted() && frame >= 2 {
             break;
         }
         let posed = scene.at(frame);
-        prepared.update(&posed).map_err(|error| failed(&error))?;
-        let output = prepared.render().map_err(|error| failed(&error))?;
-        let Some(found) = frame_errors(&posed, &output).map_err(|error| failed(&error))? else {
-            return Ok(None);
-        };
-        errors.push(found);
-        if frame > 0 {
-            evaluations.extend(output.work.evaluations);
-            steps.extend(output.work.steps);
+        let options = RenderOptions::new(size(&posed), Truth::FirstBounce);
+        let reference = Tracer::new(&posed)?.render(&options);
+        let exact = true_vertices(&posed, &posed.camera.view(size(&posed)));
+        for (row, seen) in rows.iter_mut().zip(&mut seen) {
+            let Ok(rendered) = row else { continue };
+            if let Err(broken) = seen.look(rendered, &posed, &reference, &exact) {
+                *row = Err(broken);
+            }
         }
     }
-    let mut timed = |moving: bool, frames: usize| -> Result<Vec<Option<f64>>, RowError> {
-        let mut times = Vec::new();
-        for frame in 0..frames as u32 {
-            let posed = scene.at(if moving { frame } else { 0 });
-            prepared.update(&posed).map_err(|error| failed(&error))?;
-            let time = prepared.time_frame().map_err(|error| failed(&error))?;
-            times.push(time.gpu_ms);
+    for (row, seen) in rows.iter_mut().zip(seen) {
+        let Ok(rendered) = row else { continue };
+        match seen.steadiness(rendered, scene) {
+            Ok(steadiness) => rendered.temporal = Some(steadiness),
+            Err(broken) => *row = Err(broken),
         }
-        Ok(times)
-    };
-    let before = errors.len() / 2;
-    let mut still = timed(false, before)?;
-    let moving = timed(true, errors.len())?;
-    still.extend(timed(false, errors.len() - before)?);
-    let median = |times: Vec<Option<f64>>| {
-        let times: Option<Vec<f64>> = times.into_iter().collect();
-        Some(Timing::of(&times?)?.median)
-    };
-    prepared.update(scene).map_err(|error| failed(&error))?;
-    let mean = |values: &[f64]| {
-        let sum: f64 = values.iter().sum();
-        (!values.is_empty()).then(|| sum / values.len() as f64)
-    };
-    Ok(Some(Steadiness {
-        points: temporal(&errors),
-        frame_ms: median(moving),
-        still_ms: median(still),
-        evaluations: mean(&evaluations),
-        steps: mean(&steps),
-    }))
+    }
+    Ok(())
+}
+
+fn failed(error: &dyn std::error::Error) -> RowError {
+    (Status::Failed, one_line(error))
+}
+
+impl Seen {
+    /// Renders a frame and judges it.
+    fn look(
+        &mut self,
+        rendered: &mut Rendered<'_>,
+        posed: &Scene,
+        reference: &Frame,
+        exact: &Result<Vec<TrueVertex>, NotAvailable>,
+    ) -> Result<(), RowError> {
+        let prepared = &mut rendered.prepared;
+        prepared.update(posed).map_err(|error| failed(&error))?;
+        let output = prepared.render().map_err(|error| failed(&error))?;
+        let agreement = object_agreement(reference, &output.frame).map_err(|e| failed(&e))?;
+        let least = self.object_agreement_min.into_iter().chain(agreement);
+        self.object_agreement_min = least.reduce(f64::min);
+        let errors = frame_errors(posed, &output, exact).map_err(|error| failed(&error))?;
+        self.errors.extend(errors);
+        if self.frames > 0 {
+            self.evaluations.extend(output.work.evaluations);
+            self.steps.extend(output.work.steps);
+        }
+        self.frames += 1;
+        Ok(())
+    }
+
+    /// The summary, with the frames timed.
+    fn steadiness(
+        self,
+        rendered: &mut Rendered<'_>,
+        scene: &Scene,
+    ) -> Result<Steadiness, RowError> {
+        let prepared = &mut rendered.prepared;
+        let mut timed = |moving: bool, frames: u64| -> Result<Vec<Option<f64>>, RowError> {
+            let mut times = Vec::new();
+            for frame in 0..frames as u32 {
+                let posed = scene.at(if moving { frame } else { 0 });
+                prepared.update(&posed).map_err(|error| failed(&error))?;
+                let time = prepared.time_frame().map_err(|error| failed(&error))?;
+                times.push(time.gpu_ms);
+            }
+            Ok(times)
+        };
+        let before = self.frames / 2;
+        let mut still = timed(false, before)?;
+        let moving = timed(true, self.frames)?;
+        still.extend(timed(false, self.frames - before)?);
+        let median = |times: Vec<Option<f64>>| {
+            let times: Option<Vec<f64>> = times.into_iter().collect();
+            Some(Timing::of(&times?)?.median)
+        };
+        prepared.update(scene).map_err(|error| failed(&error))?;
+        let mean = |values: &[f64]| {
+            let sum: f64 = values.iter().sum();
+            (!values.is_empty()).then(|| sum / values.len() as f64)
+        };
+        let mut points = temporal(&self.errors);
+        points.frames = self.frames;
+        Ok(Steadiness {
+            points,
+            object_agreement_min: self.object_agreement_min,
+            frame_ms: median(moving),
+            still_ms: median(still),
+            evaluations: mean(&self.evaluations),
+            steps: mean(&self.steps),
+        })
+    }
 }
 
 /// Found − true of every pair in one frame. The technique's own picture says where its mirrors
@@ -93,11 +146,11 @@ fn steadiness(
 fn frame_errors(
     scene: &Scene,
     output: &Output,
-) -> Result<Option<Vec<Option<glam::DVec2>>>, catoptric_metrics::MetricsError> {
+    exact: &Result<Vec<TrueVertex>, NotAvailable>,
+) -> Result<Option<Vec<Option<DVec2>>>, MetricsError> {
     let frame: &Frame = &output.frame;
-    let truth = true_vertices(scene, &scene.camera.view(size(scene)));
-    let (Some(results), Ok(truth)) = (&output.vertices, truth) else {
+    let (Some(results), Ok(exact)) = (&output.vertices, exact) else {
         return Ok(None);
     };
-    vertex_errors(results, &truth, |pair, at| in_view(scene, frame, pair, at)).map(Some)
+    vertex_errors(results, exact, |pair, at| in_view(scene, frame, pair, at)).map(Some)
 }

@@ -343,6 +343,38 @@ fn frames_give_jitter_and_a_still_scene_has_none() {
 }
 
 #[test]
+fn the_least_agreement_over_the_frames_is_known_of_every_technique() {
+    if !gpu_or_skip() {
+        return;
+    }
+    let args = ["compare", "moving-ball-all", "-t", "ray-trace", "linear"];
+    let more = [
+        "--frames",
+        "12",
+        "--time-budget",
+        "0.05",
+        "--format",
+        "json",
+    ];
+    let output = catoptric(&[args.as_slice(), &more, SIZE.as_slice()].concat());
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let rows = json(&output);
+    let least = |row: usize| rows[row]["temporal"]["object_agreement_min"].as_f64();
+    // Where everything has moved, it is still the reference of that frame that a picture is judged
+    // by; and a technique that searches no vertices has no jitter.
+    assert!(least(0) > Some(0.995), "{}", rows[0]["temporal"]);
+    assert!(rows[0]["temporal"]["jitter_px"].is_null());
+    assert_eq!(rows[0]["temporal"]["frames"], 12);
+    let first = rows[1]["object_agreement"].as_f64();
+    assert!(
+        least(1) <= first && least(1) > Some(0.8),
+        "{}",
+        rows[1]["temporal"]
+    );
+    assert!(rows[1]["temporal"]["jitter_px"]["mean"].as_f64() > Some(0.0));
+}
+
+#[test]
 fn nothing_is_left_where_nothing_can_be_written() {
     if !gpu_or_skip() {
         return;

@@ -10,6 +10,8 @@ use crate::{Camera, Mirror, Object, SceneError};
 
 /// Most frames of a sequence.
 const MOST_FRAMES: u32 = 10_000;
+/// The longest step of a sequence is at most so many times as long as the shortest.
+const MOST_GROWTH: f64 = 1e6;
 
 /// Reads how the scene moves, and checks the camera at every frame.
 pub(super) fn motion(
@@ -19,10 +21,19 @@ pub(super) fn motion(
     mirrors: &[Mirror],
 ) -> Result<Motion, SceneError> {
     let frames = table.count("frames", 2..=MOST_FRAMES)?;
+    let growth = table.positive("growth")?.unwrap_or(1.0);
     let camera_table = table.table("camera")?;
     let move_tables = table.tables("move")?;
     table.finish()?;
     let frames = table.required("frames", frames)?;
+    let steps = f64::from(frames - 1);
+    if growth.ln().abs() * (steps - 1.0) > MOST_GROWTH.ln() {
+        let message = format_args!(
+            "makes the longest of {steps} steps more than {MOST_GROWTH:e} times as long as the shortest: \
+             bring it nearer to 1"
+        );
+        return Err(table.error("growth", message));
+    }
     if camera_table.is_none() && move_tables.is_empty() {
         return Err(table.error_here("needs `camera` or [[motion.move]]: what moves"));
     }
@@ -41,6 +52,7 @@ pub(super) fn motion(
     }
     let motion = Motion {
         frames,
+        growth,
         camera: path,
         moves,
     };

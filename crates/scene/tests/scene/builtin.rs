@@ -121,8 +121,12 @@ fn the_hash_knows_what_a_picture_shows() {
     );
     assert_eq!(resized.camera.resolution, [32, 16]);
     assert_ne!(scene("sphere-grid-100").hash, scene("sphere-grid-300").hash);
-    let mut hashes: Vec<_> = builtin::names()
+    // Motion changes no picture: those that differ in it alone have one hash.
+    let names = builtin::names();
+    let alone = |name: &&String| !name.starts_with("moving-") || name.ends_with("-all");
+    let mut hashes: Vec<_> = names
         .iter()
+        .filter(alone)
         .filter_map(|n| open(n, &options).ok())
         .map(|s| s.hash)
         .collect();

@@ -522,6 +522,16 @@ fn motion_knows_what_it_moves() {
             "`frames` must be from 2",
         ),
         ("frames = 4", 19, "needs `camera` or [[motion.move]]"),
+        (
+            "frames = 9\ngrowth = 0\ncamera = { orbit_deg = 1 }",
+            21,
+            "`growth` must be positive",
+        ),
+        (
+            "frames = 9\ngrowth = 10\ncamera = { orbit_deg = 1 }",
+            21,
+            "`growth` makes the longest of 8 steps more than 1e6 times as long as the shortest",
+        ),
         ("frames = 4\ncamera = {}", 21, "camera: needs `orbit_deg`"),
         (
             "frames = 4\ncamera = { eye = [1, 2, 3] }",

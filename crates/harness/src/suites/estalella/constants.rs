@@ -92,13 +92,14 @@ fn constant(anchor: &'static str, title: &str, option: &str, values: &[f64]) -> 
         title: title.to_owned(),
         after: "Estalella et al. 2005, section 4.3",
         question: format!(
-            "The paper adapts the length of the steps but gives no constants. By default the first step is \
-             0.5 projected bisectors long; the next one is 0.6 times as long where the field at the \
-             beginning of a step and halfway differ by more than half of the longer, 1.25 times where by \
-             less than a quarter, and always between 0.05 and 4. A search starts halfway between the directions to eye and vertex, \
-             and ends early where E < 1e-12. The bisector is projected to \
-             first order at the point reached. Half and quarter, shortest and longest step are no options. \
-             `{option}` is varied here; nine steps, maps of 256 × 256 texels a face."
+            "The paper adapts the length of the steps but gives no constants. By default each step starts from \
+             the length that fits the distances of eye and vertex; `step` is a first length, in projected \
+             bisectors, in its place. A factor of the length gets 0.6 times (`shrink`) as large where the \
+             field at the beginning of a step and halfway differ by more than half (`different`) of the \
+             longer, 1.25 times (`grow`) where by less than a quarter (`similar`), and always stays between \
+             0.05 and 4 (`least`, `greatest`). A search starts halfway between the directions to eye and \
+             vertex, and ends early where E < 1e-12. `{option}` is varied here; nine steps, maps of \
+             256 × 256 texels a face."
         ),
         axis: Axis::linear(option),
         series: vec![

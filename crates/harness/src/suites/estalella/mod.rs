@@ -2,13 +2,14 @@
 //! Estalella et al. 2005.
 //!
 //! Fig. 6 to 8 on a kitchen, with exact errors beside them on the mirrors whose reflection points
-//! are known ([`kitchen`]); the constants that the paper leaves open ([`constants`]); hidden
-//! vertices ([`silhouette`]); steadiness over a camera path ([`steadiness`]). Fig. 4 and 5 are
+//! are known ([`kitchen`]); the constants that the paper leaves open ([`constants`]); what the maps
+//! are made from and how fine they are ([`maps`]); hidden vertices ([`silhouette`]); steadiness over a camera path ([`steadiness`]). Fig. 4 and 5 are
 //! pictures of what the search does ([`pictures`]).
 
 mod constants;
 mod data;
 mod kitchen;
+mod maps;
 mod pictures;
 mod silhouette;
 mod steadiness;
@@ -34,6 +35,7 @@ fn figures(asked: &Asked<'_>) -> Vec<Figure> {
     let mut figures = kitchen::figures(scene);
     if scene.is_none() {
         figures.extend(constants::figures());
+        figures.extend(maps::figures());
         figures.extend([silhouette::figure(), steadiness::figure()]);
     }
     figures

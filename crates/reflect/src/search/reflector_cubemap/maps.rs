@@ -4,16 +4,18 @@
 //! The centre sees each point of a closed star-shaped mirror once. Texels lie on the nodes of a
 //! grid over each face, those of the outer rows exactly on the cube's edges: neighbouring faces
 //! share these, so that bilinear interpolation is continuous across seams and never reads two
-//! faces. A sphere's or an ellipsoid's texels are exact; a mesh's are the points and interpolated
-//! normals of its triangles, however finely it is drawn. An open mirror has the maps of the closed
+//! faces. A sphere's or an ellipsoid's texels are exact, unless `tessellation` asks for those of its
+//! triangles; a mesh's are the points and interpolated normals of its triangles, however finely it is drawn. An open mirror has the maps of the closed
 //! shape that it was cut from (§6.2): a bowl those of its whole sphere, seen from inside.
 //!
 //! Face `2k` looks along axis `k` (x, y, z), face `2k + 1` against it. Coordinates on a face are
 //! the direction's components along axes `k + 1` and `k + 2` (cyclic) where that along `k` is ±1.
 
-use catoptric_scene::shape::Facing;
+use catoptric_scene::shape::{Facing, Sphere};
 use catoptric_scene::{Mesh, MirrorShape};
 use glam::DVec3;
+
+use super::ReflectorCubemap;
 
 /// Position and normal of one texel, relative to the mirror's centre.
 #[derive(Clone, Copy, Debug)]
@@ -57,15 +59,17 @@ fn face_axes(face: u32) -> [DVec3; 3] {
 }
 
 impl Maps {
-    /// Both maps with `size` (at least 2) texels along an edge.
+    /// Both maps, with `size` texels along an edge.
     ///
     /// # Panics
     /// On a shape to which there is an [`objection`].
-    pub(crate) fn new(shape: &dyn MirrorShape, size: u32) -> Self {
+    pub(crate) fn new(shape: &dyn MirrorShape, options: &ReflectorCubemap) -> Self {
         let facing = shape.facing().expect("the shape has cube maps");
-        let texels = match shape.as_mesh() {
-            Some(mesh) => of_mesh(mesh, shape.center(), size),
-            None => of_surface(shape, size),
+        let size = options.size;
+        let texels = match (shape.as_mesh(), options.tessellation) {
+            (Some(mesh), _) => of_mesh(mesh, shape.center(), size),
+            (None, 0) => of_surface(shape, size),
+            (None, segments) => of_mesh(&tessellated(shape, segments), shape.center(), size),
         };
         let four = |v: DVec3| [v.x as f32, v.y as f32, v.z as f32, 0.0];
         Self {
@@ -84,6 +88,30 @@ impl Maps {
 fn coordinate(texel: u32, size: u32) -> f64 {
     2.0 * f64::from(texel) / f64::from(size - 1) - 1.0
 }
+
+/// The whole closed surface that an analytic mirror is, or was cut from, in triangles with corners and
+/// normals of the surface.
+fn tessellated(shape: &dyn MirrorShape, segments: u32) -> Mesh {
+    let unit = Sphere {
+        center: DVec3::ZERO,
+        radius: 1.0,
+    };
+    let mut mesh = unit.tessellate(segments.max(LEAST_SEGMENTS));
+    let hit = |direction: glam::Vec3| {
+        let hit = shape.from_center(direction.as_dvec3().normalize());
+        hit.expect("the centre is inside the mirror")
+    };
+    for (triangle, normals) in mesh.triangles.iter().zip(&mut mesh.normals) {
+        *normals = triangle.map(|corner| hit(mesh.positions[corner as usize]).normal.as_vec3());
+    }
+    for position in &mut mesh.positions {
+        *position = hit(*position).position.as_vec3();
+    }
+    mesh
+}
+
+/// Fewest segments that a closed surface can be cut into.
+const LEAST_SEGMENTS: u32 = 4;
 
 fn of_surface(shape: &dyn MirrorShape, size: u32) -> Vec<Texel> {
     let center = shape.center();
@@ -191,12 +219,18 @@ fn project(
 
 #[cfg(test)]
 mod tests {
-    use catoptric_scene::shape::{Bowl, Ellipsoid, Plane, Sphere};
+    use catoptric_scene::shape::{Bowl, Ellipsoid, Plane};
     use glam::{DMat3, Vec3};
 
     use super::*;
 
     const SIZE: u32 = 17;
+
+    fn options() -> ReflectorCubemap {
+        let spec = crate::parse(&format!("reflector-cubemap(size={SIZE})")).expect("a technique");
+        let (options, _): (ReflectorCubemap, _) = spec.options().of().expect("its own");
+        options
+    }
 
     fn ellipsoid() -> Ellipsoid {
         Ellipsoid {
@@ -215,7 +249,7 @@ mod tests {
     #[test]
     fn texels_lie_on_the_surface_in_their_direction() {
         let shape = ellipsoid();
-        let maps = Maps::new(&shape, SIZE);
+        let maps = Maps::new(&shape, &options());
         assert_eq!(maps.positions.len(), 6 * 17 * 17);
         for (index, (position, normal)) in maps.positions.iter().zip(&maps.normals).enumerate() {
             let position = Vec3::from_slice(position).as_dvec3();
@@ -234,7 +268,7 @@ mod tests {
         let shape = ellipsoid();
         let mesh = shape.tessellate(48);
         assert_eq!(objection(&mesh), None);
-        let (exact, drawn) = (Maps::new(&shape, SIZE), Maps::new(&mesh, SIZE));
+        let (exact, drawn) = (Maps::new(&shape, &options()), Maps::new(&mesh, &options()));
         let gap = |a: &[[f32; 4]], b: &[[f32; 4]]| {
             let pairs = a.iter().zip(b);
             let gaps = pairs.map(|(a, b)| Vec3::from_slice(a).distance(Vec3::from_slice(b)));
@@ -248,6 +282,34 @@ mod tests {
     }
 
     #[test]
+    fn maps_of_a_tessellated_mirror_near_the_exact_ones_as_it_gets_finer() {
+        let center = DVec3::new(0.3, -2.0, 1.0);
+        let bowl = Bowl {
+            center,
+            radius: 1.5,
+            axis: DVec3::NEG_Z,
+            half_angle: 1.0,
+        };
+        for shape in [&ellipsoid() as &dyn MirrorShape, &bowl] {
+            let exact = Maps::new(shape, &options());
+            let gaps = [8, 16, 32, 64].map(|tessellation| {
+                let options = ReflectorCubemap {
+                    tessellation,
+                    ..options()
+                };
+                let drawn = Maps::new(shape, &options);
+                let pairs = exact.positions.iter().zip(&drawn.positions);
+                let gaps = pairs.map(|(a, b)| Vec3::from_slice(a).distance(Vec3::from_slice(b)));
+                f64::from(gaps.sum::<f32>()) / exact.positions.len() as f64
+            });
+            // Chords are off by the square of a segment.
+            for pair in gaps.windows(2) {
+                assert!((2.5..6.0).contains(&(pair[0] / pair[1])), "{gaps:?}");
+            }
+        }
+    }
+
+    #[test]
     fn a_bowl_has_the_maps_of_its_sphere_from_inside() {
         let center = DVec3::new(0.3, -2.0, 1.0);
         let radius = 1.5;
@@ -257,8 +319,8 @@ mod tests {
             axis: DVec3::NEG_Z,
             half_angle: 1.0,
         };
-        let outside = Maps::new(&Sphere { center, radius }, SIZE);
-        let inside = Maps::new(&bowl, SIZE);
+        let outside = Maps::new(&Sphere { center, radius }, &options());
+        let inside = Maps::new(&bowl, &options());
         assert_eq!(inside.positions, outside.positions);
         let turned = outside.normals.iter().map(|normal| normal.map(|c| -c));
         assert!(inside.normals.iter().copied().eq(turned));

@@ -35,6 +35,16 @@ words! {
     }
 }
 
+words! {
+    /// How the bisector is projected onto a face of the cube.
+    pub(crate) enum Projection {
+        /// To first order, at the point reached.
+        Ours = "ours",
+        /// Between the points where the rays along normal and bisector meet the face.
+        Published = "published",
+    }
+}
+
 options! {
     /// The search, as its options describe it.
     pub(crate) struct ReflectorCubemap {
@@ -45,6 +55,12 @@ options! {
         /// the direction from the mirror's centre where a search starts (in a concave mirror the
         /// one against it): halfway between eye and vertex, or the eye's
         start: Start,
+        /// the projected bisector: of first order at the point reached, or between the places where the
+        /// rays from the centre along normal and bisector meet the face
+        projection: Projection,
+        /// segments around the tessellated mirror that the maps are drawn from, as the paper draws them;
+        /// 0: each texel has the mirror's exact point and normal (a mesh's its triangles' in any case)
+        tessellation: u32 = 0 in 0..=1024,
         /// length of the first step, in units of the projected bisector; 0: every step starts from the
         /// length that fits the distances of eye and vertex, which the factors change
         step: f64 = 0.0 in 0.0..=4.0,
@@ -157,11 +173,13 @@ impl InMaps {
         let Context { gpu, stage, .. } = context;
         let slots = [Slot::Uniform, Slot::Textures, Slot::Textures];
         let layout = layout(gpu, "reflector cube maps", &slots);
-        let features = context.extends.then_some("extend");
-        let features = features.as_slice();
+        let published = options.projection == Projection::Published;
+        let features = [(context.extends, "extend"), (published, "published")];
+        let features = features.into_iter().filter(|(on, _)| *on);
+        let features: Vec<_> = features.map(|(_, name)| name).collect();
         let mut made = Self {
             options: *options,
-            pipelines: Pipelines::new(context, "reflector_cubemap", features, &layout)?,
+            pipelines: Pipelines::new(context, "reflector_cubemap", &features, &layout)?,
             layout,
             mirrors: Vec::new(),
             builds: 0,
@@ -177,7 +195,7 @@ impl InMaps {
     /// Makes the maps of a mirror.
     fn build(&mut self, gpu: &Gpu, mirror: &Mirror) -> OnGpu {
         self.builds += 1;
-        let maps = Maps::new(&*mirror.shape, self.options.size);
+        let maps = Maps::new(&*mirror.shape, &self.options);
         let settings = uniform(gpu, &Settings::new(&self.options, maps.facing));
         let views = [&maps.positions, &maps.normals].map(|texels| {
             // Cube textures cannot be read texel by texel.

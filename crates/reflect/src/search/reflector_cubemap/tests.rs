@@ -129,6 +129,37 @@ fn many_iterations_are_exact() {
 }
 
 #[test]
+fn the_published_projection_ends_at_the_same_points() {
+    // Both fields vanish where bisector and normal are one. On an ellipsoid the rays along them meet
+    // the face elsewhere than the ray through the point reached: the ways between are too long here
+    // and too short there, and grazing vertices need more steps.
+    let technique = "reflector-cubemap(iterations=60,projection=published)";
+    for (name, limits) in [
+        ("prototype-sphere", [0.005, 0.01]),
+        ("prototype-ellipsoid", [0.005, 0.1]),
+    ] {
+        let offsets = offsets(name, technique);
+        let found = [0.5, 0.95].map(|share| offsets[(offsets.len() as f64 * share) as usize]);
+        assert!(
+            found[0] < limits[0] && found[1] < limits[1],
+            "{name}: {found:?}"
+        );
+    }
+}
+
+#[test]
+fn maps_of_a_coarse_mesh_move_the_points() {
+    let median = |tessellation: u32| {
+        let technique = format!("reflector-cubemap(iterations=40,tessellation={tessellation})");
+        let offsets = offsets("prototype-sphere", &technique);
+        offsets[offsets.len() / 2]
+    };
+    // With the square of a segment.
+    let [coarse, fine] = [32, 128].map(median);
+    assert!(coarse > 8.0 * fine && fine < 0.5, "{coarse} {fine}");
+}
+
+#[test]
 fn in_a_bowl_the_inverted_images_are_found() {
     // Sagittal rays of a mirror of radius R meet last: 1/a + 1/b = 2 cos i / R. With the eye at least
     // 4.6 away and R = 1.5, b < 3 up to 65 degrees of incidence, more than are seen here: what is
@@ -189,6 +220,10 @@ fn gpu_finds_the_same_points() {
         (
             "prototype-ellipsoid",
             "reflector-cubemap(iterations=2,start=eye,size=64)",
+        ),
+        (
+            "prototype-ellipsoid",
+            "reflector-cubemap(iterations=2,projection=published,tessellation=96)",
         ),
         (
             "sphere-touching",

@@ -5,7 +5,7 @@ use catoptric_scene::Scene;
 use glam::{Vec2, Vec3};
 
 use super::maps::{Maps, objection};
-use super::{ReflectorCubemap, Settings};
+use super::{Projection, ReflectorCubemap, Settings};
 use crate::options::Options as _;
 use crate::spec::Options;
 use crate::stage::options::{Hidden, SearchOptions};
@@ -22,6 +22,7 @@ pub struct CubemapWalk {
     /// Relative to the centre.
     eye: Vec3,
     extend: bool,
+    published: bool,
 }
 
 /// A step of a search: places on the cube.
@@ -51,6 +52,7 @@ struct Start {
 
 const NEAR_MISS: f32 = 1.05;
 const LEAST_COSINE: f32 = 0.05;
+const LEAST_DEPTH: f32 = 0.1;
 const EPSILON: f32 = 1e-12;
 
 fn major(q: Vec3) -> usize {
@@ -86,13 +88,14 @@ impl CubemapWalk {
         let own = options.of();
         let (own, mut common): (ReflectorCubemap, _) = own.expect("options of this search");
         let common = SearchOptions::read(&mut common);
-        let maps = Maps::new(shape, own.size);
+        let maps = Maps::new(shape, &own);
         Self {
             settings: Settings::new(&own, maps.facing),
             maps,
             center: shape.center().as_vec3(),
             eye: (scene.camera.eye - shape.center()).as_vec3(),
             extend: common.hidden == Hidden::Extend,
+            published: own.projection == Projection::Published,
         }
     }
 
@@ -148,9 +151,20 @@ impl CubemapWalk {
             to_vertex -= 2.0 * to_vertex.dot(surface.normal).min(0.0) * surface.normal;
         }
         let sum = to_eye + to_vertex / to_vertex.length().max(1e-30);
-        let turn = self.settings.facing * (sum / sum.length().max(1e-30) - surface.normal);
+        let bisector = self.settings.facing * sum / sum.length().max(1e-30);
+        let normal = self.settings.facing * surface.normal;
+        let turn = bisector - normal;
+        let step = if self.published {
+            let side = q[axis].signum();
+            let mut step = bisector / (side * bisector[axis]).max(LEAST_DEPTH)
+                - normal / (side * normal[axis]).max(LEAST_DEPTH);
+            step[axis] = 0.0;
+            step
+        } else {
+            (turn - turn[axis] / q[axis] * q) * q.length()
+        };
         Field {
-            step: (turn - turn[axis] / q[axis] * q) * q.length(),
+            step,
             error: 0.25 * turn.dot(turn),
         }
     }

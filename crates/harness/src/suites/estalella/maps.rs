@@ -1,0 +1,160 @@
+//! What the reflector cube maps are made from, and how fine they are.
+
+use crate::show::number::short;
+use crate::show::plot::Axis;
+use crate::suites::figure::{Figure, Quantity};
+use crate::suites::paths::{MEDIAN_PX, P95_PX};
+use crate::suites::results::{Results, power};
+use crate::suites::series::{Point, Series};
+
+/// Steps with which what is left of the error is the maps'.
+const SETTLED: u32 = 40;
+/// Steps of the paper's search.
+const PAPER: u32 = 9;
+
+/// By the tessellation that the maps are drawn from, by their size, and by how the bisector is projected.
+pub fn figures() -> [Figure; 3] {
+    [
+        figure(
+            "map-tessellation",
+            "How finely the mirror in the maps is tessellated",
+            "The paper draws the maps from triangles with interpolated positions and normals, of a mesh that \
+             may be much finer than the one on the screen, at no cost while rendering. By default maps of \
+             analytic mirrors are exact here; in this sweep they are drawn from so many segments around.",
+            "tessellation",
+            "segments around",
+            &[8, 16, 32, 64, 128, 256],
+        ),
+        figure(
+            "map-size",
+            "How many texels the maps have",
+            "Maps of so many texels along an edge of a face, each with the mirror's exact point and normal, \
+             interpolated in between. The paper gives no size.",
+            "size",
+            "texels along an edge",
+            &[8, 16, 32, 64, 128, 256, 512],
+        ),
+        projections(),
+    ]
+}
+
+/// A sweep of a number of the maps.
+fn figure(
+    anchor: &'static str,
+    title: &str,
+    question: &str,
+    option: &str,
+    unit: &str,
+    values: &[u32],
+) -> Figure {
+    let series = |label: &str, scene: &str, iterations: u32| Series {
+        label: label.to_owned(),
+        points: values
+            .iter()
+            .map(|value| {
+                let technique =
+                    format!("reflector-cubemap(iterations={iterations},{option}={value})");
+                Point::new(f64::from(*value), scene, technique)
+            })
+            .collect(),
+    };
+    Figure {
+        anchor,
+        title: title.to_owned(),
+        after: "Estalella et al. 2005, section 4.1",
+        question: question.to_owned(),
+        axis: Axis::log(unit),
+        series: vec![
+            series("sphere", "prototype-sphere", SETTLED),
+            series("ellipsoid", "prototype-ellipsoid", SETTLED),
+            series("ellipsoid, 9 steps", "prototype-ellipsoid", PAPER),
+        ],
+        quantities: vec![Quantity::log(MEDIAN_PX), Quantity::log(P95_PX)],
+        quotes: &[],
+        analysis: sweep_analysis,
+    }
+}
+
+fn sweep_analysis(results: &Results<'_>) -> Vec<String> {
+    let mut sentences = Vec::new();
+    for series in ["sphere", "ellipsoid"] {
+        if let Some(power) = power(&results.curve(series, MEDIAN_PX)) {
+            sentences.push(format!(
+                "On the {series} the median error goes with the number to the power {}; linear \
+                 interpolation of a smooth surface gives -2.",
+                short(power)
+            ));
+        }
+    }
+    let nine = |x| results.at("ellipsoid, 9 steps", x, MEDIAN_PX);
+    let settled = results.curve("ellipsoid", MEDIAN_PX);
+    let decided = |(x, all): &&(f64, f64)| nine(*x).is_some_and(|nine| *all < 0.5 * nine);
+    if settled.is_empty() {
+        return sentences;
+    }
+    sentences.push(match settled.iter().find(decided) {
+        Some((x, _)) => format!(
+            "From {} on, the maps err by less than half of what nine steps leave on the ellipsoid: the \
+             steps decide, not the maps.",
+            short(*x)
+        ),
+        None => "At no number here do the maps err by less than half of what nine steps leave on the \
+                 ellipsoid: the maps decide, not the steps."
+            .to_owned(),
+    });
+    sentences
+}
+
+/// The two projections of the bisector, by the number of steps.
+fn projections() -> Figure {
+    let series = |label: &str, scene: &str, projection: &str| Series {
+        label: label.to_owned(),
+        points: [3, 5, 7, 9, 15, 25]
+            .into_iter()
+            .map(|iterations| {
+                let technique =
+                    format!("reflector-cubemap(iterations={iterations},projection={projection})");
+                Point::new(f64::from(iterations), scene, technique)
+            })
+            .collect(),
+    };
+    Figure {
+        anchor: "projection",
+        title: "How the bisector is projected".to_owned(),
+        after: "Estalella et al. 2005, section 4.2",
+        question: "The paper takes the difference between the points where the rays along bisector and \
+                   normal meet the face of the cube. By default the search here takes the derivative of \
+                   the central projection at the point reached. On a sphere the two differ in second order."
+            .to_owned(),
+        axis: Axis::linear("steps at most"),
+        series: vec![
+            series("sphere, published", "prototype-sphere", "published"),
+            series("sphere, ours", "prototype-sphere", "ours"),
+            series("ellipsoid, published", "prototype-ellipsoid", "published"),
+            series("ellipsoid, ours", "prototype-ellipsoid", "ours"),
+        ],
+        quantities: vec![Quantity::log(MEDIAN_PX), Quantity::log(P95_PX)],
+        quotes: &[],
+        analysis: projection_analysis,
+    }
+}
+
+fn projection_analysis(results: &Results<'_>) -> Vec<String> {
+    let sentence = |mirror: &str| {
+        let at = |which: &str, path| results.at(&format!("{mirror}, {which}"), 9.0, path);
+        let (published, ours) = (at("published", MEDIAN_PX)?, at("ours", MEDIAN_PX)?);
+        let (tail, our_tail) = (at("published", P95_PX)?, at("ours", P95_PX)?);
+        Some(format!(
+            "After nine steps on the {mirror} the published projection leaves {} px in the median and {} px \
+             at the 95th percentile, ours {} and {} px.",
+            short(published),
+            short(tail),
+            short(ours),
+            short(our_tail)
+        ))
+    };
+    ["sphere", "ellipsoid"]
+        .into_iter()
+        .filter_map(sentence)
+        .collect()
+}

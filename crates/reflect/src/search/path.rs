@@ -43,6 +43,7 @@ pub(crate) fn path(
         first: 0,
         count: 1,
         warm: 0,
+        listed: 0,
     };
     let mut bytes = StorageBuffer::new(Vec::new());
     bytes.write(&range).expect("writing to memory");

@@ -15,6 +15,8 @@ pub(crate) struct Range {
     pub first: u32,
     pub count: u32,
     pub warm: u32,
+    /// 1: `first` and `count` are entries of a list of points, not points.
+    pub listed: u32,
 }
 
 /// Twin of `Effort` in `shared/points.wesl`: what the search of one point took.
@@ -63,7 +65,7 @@ pub(crate) enum Dispatch {
     Indirect(wgpu::Buffer, u64),
 }
 
-/// Group 2 of every search: `points`, `found`, `range`, `efforts`. One record a point.
+/// Group 2 of every search: `points`, `found`, `range`, `efforts`, `list`. One record a point.
 pub(crate) struct Points {
     /// [`Found`] records.
     pub found: wgpu::Buffer,
@@ -78,7 +80,13 @@ pub(crate) struct Points {
 
 /// The layout of [`Points::group`].
 pub(crate) fn points_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    let slots = [Slot::Read, Slot::Write, Slot::Read, Slot::Write];
+    let slots = [
+        Slot::Read,
+        Slot::Write,
+        Slot::Read,
+        Slot::Write,
+        Slot::Read,
+    ];
     layout(gpu, "points", &slots)
 }
 
@@ -95,10 +103,43 @@ impl Points {
             first: 0,
             count,
             warm: 0,
+            listed: 0,
         };
         set_storage(gpu, &range, &all);
         let dispatch = Dispatch::Direct(count);
         Self::with_range(gpu, layout, positions, count, range, dispatch)
+    }
+
+    /// A batch of `count` positions, of which those in a list are searched that `range` says: what writes
+    /// the list, the range and the dispatch runs before. What was never searched for counts as not found.
+    pub(crate) fn listed(
+        gpu: &Gpu,
+        layout: &wgpu::BindGroupLayout,
+        positions: &wgpu::Buffer,
+        count: u32,
+        list: &wgpu::Buffer,
+        dispatch: Dispatch,
+    ) -> Self {
+        let range = storage_bytes(gpu, &[0; 16]);
+        let listed = Range {
+            first: 0,
+            count: 0,
+            warm: 0,
+            listed: 1,
+        };
+        set_storage(gpu, &range, &listed);
+        let made = Self::with_list(gpu, layout, positions, count, range, dispatch, list);
+        let nowhere = Found {
+            position: Vec3::ZERO,
+            state: Found::FAILED,
+            at: Vec2::ZERO,
+            distance: 0.0,
+            image: Vec3::ZERO,
+        };
+        if count > 0 {
+            set_storage(gpu, &made.found, &vec![nowhere; count as usize]);
+        }
+        made
     }
 
     /// A batch of at most `capacity` positions, of which `range` says which are searched.
@@ -110,11 +151,25 @@ impl Points {
         range: wgpu::Buffer,
         dispatch: Dispatch,
     ) -> Self {
+        let list = storage_zeros(gpu, 4);
+        Self::with_list(gpu, layout, positions, capacity, range, dispatch, &list)
+    }
+
+    fn with_list(
+        gpu: &Gpu,
+        layout: &wgpu::BindGroupLayout,
+        positions: &wgpu::Buffer,
+        capacity: u32,
+        range: wgpu::Buffer,
+        dispatch: Dispatch,
+        list: &wgpu::Buffer,
+    ) -> Self {
         let records =
             |size: std::num::NonZeroU64| storage_zeros(gpu, u64::from(capacity) * size.get());
         let found = records(Found::SHADER_SIZE);
         let efforts = records(Effort::SHADER_SIZE);
-        let resources = [positions, &found, &range, &efforts].map(wgpu::Buffer::as_entire_binding);
+        let resources = [positions, &found, &range, &efforts, list];
+        let resources = resources.map(wgpu::Buffer::as_entire_binding);
         Self {
             group: group(gpu, layout, &resources),
             found,
@@ -124,12 +179,25 @@ impl Points {
         }
     }
 
-    /// Tells the search whether `found` holds the previous frame's answers.
+    /// Tells the search whether `found` holds the previous frame's answers, and that all of `count`
+    /// points are searched.
     pub(crate) fn set_warm(&self, gpu: &Gpu, count: u32, warm: bool) {
         let range = Range {
             first: 0,
             count,
             warm: u32::from(warm),
+            listed: 0,
+        };
+        set_storage(gpu, &self.range, &range);
+    }
+
+    /// Tells the search of a list whether `found` holds the previous frame's answers.
+    pub(crate) fn set_list_warm(&self, gpu: &Gpu, warm: bool) {
+        let range = Range {
+            first: 0,
+            count: 0,
+            warm: u32::from(warm),
+            listed: 1,
         };
         set_storage(gpu, &self.range, &range);
     }
@@ -156,6 +224,17 @@ pub(crate) struct Efforts {
     pub steps: u64,
     pub evaluations: u64,
     pub node_tests: u64,
+}
+
+impl From<Effort> for Efforts {
+    fn from(effort: Effort) -> Self {
+        Self {
+            searched: 1,
+            steps: effort.steps.into(),
+            evaluations: effort.evaluations.into(),
+            node_tests: effort.node_tests.into(),
+        }
+    }
 }
 
 impl Efforts {
@@ -193,12 +272,7 @@ impl Points {
     pub(crate) fn total(&self, gpu: &Gpu, count: u32) -> Efforts {
         let mut total = Efforts::default();
         for effort in self.read_efforts(gpu, count) {
-            total.add(Efforts {
-                searched: 1,
-                steps: effort.steps.into(),
-                evaluations: effort.evaluations.into(),
-                node_tests: effort.node_tests.into(),
-            });
+            total.add(effort.into());
         }
         total
     }
@@ -264,7 +338,7 @@ mod tests {
 
     #[test]
     fn records_lie_as_the_shaders_read_them() {
-        assert_layout!(Range { first, count, warm }, "linear", &[], "Range");
+        assert_layout!(Range { first, count, warm, listed }, "linear", &[], "Range");
         assert_layout!(
             Found {
                 position,

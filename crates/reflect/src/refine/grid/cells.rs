@@ -1,17 +1,19 @@
 //! The bounding grid of a mesh: which cells it has, and where in them the vertices lie
 //! (Estalella et al. 2005, §5). World space.
 
-use glam::{DAffine3, DMat3, DVec3, UVec3, Vec3};
+use glam::{DVec3, UVec3, Vec3};
 
 /// The occupied cells of an axis-aligned grid around a mesh, as it stood when the grid was made.
 ///
 /// Along an axis in which the mesh has no extent, the grid is a single layer of vertices.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Cells {
-    /// World-space corners of all occupied cells, each once.
+    /// World-space corners of all occupied cells, each once; without those that no vertex of the
+    /// mesh is interpolated from.
     pub vertices: Vec<DVec3>,
     /// Indices into `vertices` of a cell's corners: corner `x + 2y + 4z` at local coordinates
-    /// `(x, y, z)`; in a flat grid both ends of an axis are the same vertex.
+    /// `(x, y, z)`; in a flat grid both ends of an axis are the same vertex. For a corner that no
+    /// vertex of this cell needs stands one that is needed.
     pub cells: Vec<[u32; 8]>,
     /// For each vertex of the mesh, its cell and its local coordinates in [0, 1]³.
     pub places: Vec<(u32, Vec3)>,
@@ -28,6 +30,9 @@ struct Lattice {
 
 /// An extent below this share of the longest is none.
 const FLAT: f64 = 1e-6;
+
+/// A corner's share in a vertex below this is none: rounding, where the vertex lies on the cell's side.
+const NEGLIGIBLE: f32 = 1e-6;
 
 /// Most cells along an axis, so that the three indices of a grid vertex fit into one word.
 const MOST_CELLS: u32 = 1 << 20;
@@ -79,18 +84,59 @@ impl Lattice {
     }
 
     /// Cells that hold a position, each once, in order.
-    fn occupied(&self, positions: &[Vec3]) -> Vec<u64> {
-        let cells = positions.iter().map(|p| key(self.locate(p.as_dvec3()).0));
-        distinct(cells.collect())
+    fn occupied(&self, positions: &[Vec3]) -> Vec<Occupied> {
+        let held = positions.iter().map(|position| {
+            let (cell, local) = self.locate(position.as_dvec3());
+            let needed = (0..8).filter(|corner| share(*corner, local) > NEGLIGIBLE);
+            Occupied {
+                cell: key(cell),
+                corners: needed.fold(0, |corners, corner| corners | 1 << corner),
+            }
+        });
+        let mut held: Vec<_> = held.collect();
+        held.sort_unstable_by_key(|held| held.cell);
+        held.dedup_by(|next, kept| {
+            let same = next.cell == kept.cell;
+            if same {
+                kept.corners |= next.corners;
+            }
+            same
+        });
+        held
     }
 
-    /// Vertices of occupied cells, each once, in order.
-    fn nodes(&self, occupied: &[u64]) -> Vec<u64> {
-        let nodes = occupied
-            .iter()
-            .flat_map(|cell| self.corners(unkey(*cell)).map(key));
+    /// Vertices of occupied cells that a position needs, each once, in order.
+    fn nodes(&self, occupied: &[Occupied]) -> Vec<u64> {
+        let nodes = occupied.iter().flat_map(|held| {
+            let corners = self.corners(unkey(held.cell)).into_iter().enumerate();
+            corners.filter_map(|(corner, node)| held.needs(corner).then(|| key(node)))
+        });
         distinct(nodes.collect())
     }
+}
+
+/// A cell that holds positions.
+#[derive(Clone, Copy, Debug)]
+struct Occupied {
+    /// Its [`key`].
+    cell: u64,
+    /// A bit a corner: whether a position is interpolated from it.
+    corners: u8,
+}
+
+impl Occupied {
+    fn needs(&self, corner: usize) -> bool {
+        self.corners >> corner & 1 == 1
+    }
+}
+
+/// The share of a corner at local coordinates.
+fn share(corner: usize, local: Vec3) -> f32 {
+    let along = |axis: usize| match corner >> axis & 1 {
+        0 => 1.0 - local[axis],
+        _ => local[axis],
+    };
+    along(0) * along(1) * along(2)
 }
 
 /// Three indices in one word, in the order of the words.
@@ -172,18 +218,23 @@ impl Cells {
     fn in_lattice(positions: &[Vec3], lattice: &Lattice) -> Self {
         let occupied = lattice.occupied(positions);
         let nodes = lattice.nodes(&occupied);
-        let index = |keys: &[u64], at: UVec3| {
-            let found = keys.binary_search(&key(at));
+        let index = |nodes: &[u64], at: UVec3| {
+            let found = nodes.binary_search(&key(at));
             found.expect("listed above") as u32
         };
-        let corners = |cell: &u64| {
-            lattice
-                .corners(unkey(*cell))
-                .map(|node| index(&nodes, node))
+        let corners = |held: &Occupied| {
+            let nodes_around = lattice.corners(unkey(held.cell));
+            let needed = (0..8).find(|corner| held.needs(*corner));
+            let needed = needed.expect("the shares of a position add up to 1");
+            std::array::from_fn(|corner| {
+                let corner = if held.needs(corner) { corner } else { needed };
+                index(&nodes, nodes_around[corner])
+            })
         };
         let place = |position: &Vec3| {
             let (cell, local) = lattice.locate(position.as_dvec3());
-            (index(&occupied, cell), local)
+            let found = occupied.binary_search_by_key(&key(cell), |held| held.cell);
+            (found.expect("it holds this position") as u32, local)
         };
         Self {
             vertices: nodes
@@ -194,46 +245,6 @@ impl Cells {
             places: positions.iter().map(place).collect(),
         }
     }
-}
-
-/// Where a rigid mesh is, told by three of its vertices.
-#[derive(Clone, Debug)]
-pub(crate) struct Pose {
-    anchors: [usize; 3],
-    /// Undoes the pose in which the anchors were chosen.
-    rest: DAffine3,
-}
-
-impl Pose {
-    /// The pose of a mesh as it stands; its anchors are far apart and far from one line. `None`
-    /// for a mesh without positions.
-    pub(crate) fn new(positions: &[Vec3]) -> Option<Self> {
-        let first = positions.first()?.as_dvec3();
-        let farthest = |measure: &dyn Fn(DVec3) -> f64| {
-            let measured = positions.iter().map(|p| measure(p.as_dvec3()));
-            let best = measured.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
-            best.map(|(index, _)| index)
-        };
-        let second = farthest(&|p| p.distance_squared(first))?;
-        let along = (positions[second].as_dvec3() - first).normalize_or_zero();
-        let third = farthest(&|p| (p - first).cross(along).length_squared())?;
-        let anchors = [0, second, third];
-        let rest = frame(positions, anchors).inverse();
-        Some(Self { anchors, rest })
-    }
-
-    /// World space now from world space then.
-    pub(crate) fn moved(&self, positions: &[Vec3]) -> DAffine3 {
-        frame(positions, self.anchors) * self.rest
-    }
-}
-
-fn frame(positions: &[Vec3], anchors: [usize; 3]) -> DAffine3 {
-    let [a, b, c] = anchors.map(|anchor| positions[anchor].as_dvec3());
-    let x = (b - a).try_normalize().unwrap_or(DVec3::X);
-    let z = x.cross(c - a).try_normalize();
-    let z = z.unwrap_or_else(|| x.any_orthonormal_vector());
-    DAffine3::from_mat3_translation(DMat3::from_cols(x, z.cross(x), z), a)
 }
 
 #[cfg(test)]
@@ -331,28 +342,5 @@ mod tests {
         let quad = [Vec3::ZERO, Vec3::X, Vec3::Z, Vec3::X + Vec3::Z];
         assert_eq!(Cells::by_fraction(&quad, 0.1), None);
         assert_eq!(Cells::by_fraction(&[], 0.1), None);
-    }
-
-    #[test]
-    fn a_pose_follows_a_rigid_motion() {
-        for rest in [sphere(), square(true), vec![Vec3::X, Vec3::Y, Vec3::Z]] {
-            let pose = Pose::new(&rest).expect("has positions");
-            let motion = DAffine3::from_rotation_translation(
-                glam::DQuat::from_rotation_y(0.7) * glam::DQuat::from_rotation_x(-0.2),
-                DVec3::new(1.0, -2.0, 0.3),
-            );
-            let now: Vec<_> = rest
-                .iter()
-                .map(|p| motion.transform_point3(p.as_dvec3()).as_vec3())
-                .collect();
-            let found = pose.moved(&now);
-            for point in [DVec3::ZERO, DVec3::new(1.0, 2.0, -3.0)] {
-                let gap = found
-                    .transform_point3(point)
-                    .distance(motion.transform_point3(point));
-                // Rounding of the anchors to f32, at this distance from them.
-                assert!(gap < 1e-5, "{gap}");
-            }
-        }
     }
 }

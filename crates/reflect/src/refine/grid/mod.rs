@@ -1,25 +1,32 @@
 //! Grid interpolation (Estalella et al. 2005, §5): only the vertices of each mesh's bounding grid
 //! are searched for; the mesh's own are interpolated between their virtual images.
 //!
-//! The grid belongs to a mesh and moves with it. A grid vertex inside a mirror has no reflection
-//! there and is left out of the cells around it. By `fraction`, a mesh that would have no fewer grid
-//! vertices than vertices is searched directly.
+//! The grid belongs to a mesh and moves with it. A grid vertex inside a mirror lies in the hidden
+//! region and has an image like any other there (§6.1). By `fraction`, a mesh that would have no
+//! fewer grid vertices than vertices is searched directly.
+//!
+//! Ours: `mixed=search` searches the vertices of cells whose corners' states are mixed;
+//! `cells=octree` has a tree of cells around each mesh, which every frame goes down, for each mirror,
+//! as far as the images of the cells' centres ask for it; `polish=1` takes a Newton step from
+//! the interpolated reflection point.
 
 mod cells;
+mod forest;
+mod pose;
+mod settling;
 #[cfg(test)]
 mod tests;
 
 use catoptric_frame::{Triangles, VertexResult};
-use catoptric_scene::{MirrorShape, Scene};
-use encase::ShaderType;
-use glam::{DVec3, Vec3};
+use catoptric_scene::Scene;
+use glam::{DAffine3, Vec3};
 
 use super::{Context, Recipe, Refine};
 use crate::error::ReflectError;
 use crate::gpu::{
     Gpu, Kernel, Recorder, Slot, compute, group, layout, module, storage, storage_bytes,
 };
-use crate::options::options;
+use crate::options::{options, words};
 use crate::search::Search;
 use crate::stage::Stage;
 use crate::stage::options::Depth;
@@ -27,15 +34,49 @@ use crate::stage::points::{Efforts, Points};
 use crate::stage::raster::Raster;
 use crate::stage::variant::Variant;
 use crate::technique::{Info, Named};
-use cells::{Cells, Pose};
+use cells::Cells as Lattice;
+use forest::Forest;
+use pose::Pose;
+use settling::{Settled, Settling};
+
+words! {
+    /// What cells there are around a mesh.
+    pub(crate) enum Cells {
+        /// An even grid.
+        Grid = "grid",
+        /// A tree, divided in each frame where the images ask for it.
+        Octree = "octree",
+    }
+}
+
+words! {
+    /// What becomes of a vertex in a cell of which some corners are hidden and some are not.
+    pub(crate) enum Mixed {
+        /// It is interpolated.
+        Interpolate = "interpolate",
+        /// It is searched itself.
+        Search = "search",
+    }
+}
 
 options! {
     /// The refinement, as its options describe it.
     pub(crate) struct Grid {
-        /// grid vertices as a share of the mesh's; 1 searches every vertex of the mesh
+        /// grid vertices as a share of the mesh's; 1 searches every vertex of the mesh (cells=grid)
         fraction: f64 = 0.1 in 0.0..=1.0,
-        /// edge of the cells in world units, whatever their number; 0 goes by the fraction
+        /// edge of the cells in world units, whatever their number; 0 goes by the fraction (cells=grid)
         cell: f64 = 0.0 in 0.0..=1e6,
+        /// an even grid around each mesh, or a tree of cells that is divided, in each frame and for each
+        /// mirror, where corners' states are mixed or the image of a cell's centre misses the mean of its
+        /// corners' images; of what holds no more than 8 vertices these are searched
+        cells: Cells,
+        /// vertices of a cell with both hidden and reflected corners are interpolated, or searched
+        /// themselves (cells=grid; in a tree the latter)
+        mixed: Mixed,
+        /// 1: a Newton step on the G-buffer from each interpolated reflection point
+        polish: u32 = 0 in 0..=1,
+        /// largest miss of a centre's image, in pixels, in a cell that is not divided (cells=octree)
+        error: f64 = 0.5 in 0.0..=1e6,
     }
 }
 
@@ -51,7 +92,36 @@ impl Grid {
     /// Whether every mesh is searched directly: with as many grid vertices as vertices, nothing is
     /// interpolated.
     fn is_bypassed(&self) -> bool {
-        self.cell <= 0.0 && self.fraction >= 1.0
+        self.cells == Cells::Grid && self.cell <= 0.0 && self.fraction >= 1.0
+    }
+
+    /// Whether each frame settles what it searches.
+    fn settles(&self) -> bool {
+        !self.is_bypassed() && (self.cells == Cells::Octree || self.mixed == Mixed::Search)
+    }
+
+    fn polishes(&self) -> bool {
+        !self.is_bypassed() && self.polish == 1
+    }
+
+    /// The cells around the meshes.
+    fn forest(&self, meshes: &[&[Vec3]]) -> Forest {
+        if self.cells == Cells::Octree {
+            return Forest::of_trees(meshes);
+        }
+        let grid = |positions: &&[Vec3]| {
+            if self.cell > 0.0 {
+                (!positions.is_empty()).then(|| Lattice::by_edge(positions, self.cell))
+            } else {
+                Lattice::by_fraction(positions, self.fraction)
+            }
+        };
+        let grids: Vec<_> = meshes.iter().map(grid).collect();
+        if self.settles() {
+            Forest::of_grids_with_leaves(meshes, &grids)
+        } else {
+            Forest::of_grids(meshes, &grids)
+        }
     }
 }
 
@@ -67,36 +137,22 @@ impl Recipe for Grid {
     }
 }
 
-/// Twin of `Place` in `grid.wesl`: where a vertex of the scene lies among what is searched.
-#[derive(Clone, Copy, Debug, ShaderType)]
-struct Place {
-    /// Coordinates in the cell, 0 to 1.
-    local: Vec3,
-    /// A cell, or [`Place::DIRECT`] + a searched point.
-    cell: u32,
-}
-
-impl Place {
-    /// `cell`: the vertex is searched itself.
-    const DIRECT: u32 = 1 << 31;
-}
-
-/// A mesh with its grid.
-struct Mesh {
-    /// `None`: searched directly.
-    grid: Option<(Cells, Pose)>,
-}
-
 /// The refinement, ready for a scene.
 struct Interpolation {
     raster: Raster,
     interpolate: Kernel,
     layout: wgpu::BindGroupLayout,
     points_layout: wgpu::BindGroupLayout,
-    /// One an object.
-    meshes: Vec<Mesh>,
-    /// A [`Place`] a vertex of the scene.
+    forest: Forest,
+    /// One an object; `None` for an empty mesh.
+    poses: Vec<Option<Pose>>,
+    /// `None`: every record is searched.
+    settling: Option<Settling>,
+    polishes: bool,
+    /// A [`forest::Place`] a vertex of the scene.
     places: wgpu::Buffer,
+    /// Of [`forest::Cell`].
+    cells: wgpu::Buffer,
     mirrors: Vec<OnMirror>,
     /// What the mirrors' searches were made for.
     scene: Scene,
@@ -107,106 +163,63 @@ struct Interpolation {
 /// Searched and interpolated points on one mirror.
 struct OnMirror {
     searched: Points,
-    count: u32,
-    /// Grid vertices inside the mirror.
-    dropped: u32,
+    settled: Option<Settled>,
     /// All vertices of the scene; its answers are written by the interpolation.
     interpolated: Points,
     interpolate: wgpu::BindGroup,
     draw: wgpu::BindGroup,
 }
 
-/// Corner of a cell that is inside the mirror; `DROPPED` in `grid.wesl`.
-const DROPPED: u32 = u32::MAX;
-
-impl Mesh {
-    fn new(positions: &[Vec3], options: &Grid) -> Self {
-        let edge = options.cell;
-        let cells = if edge > 0.0 {
-            (!positions.is_empty()).then(|| Cells::by_edge(positions, edge))
-        } else {
-            Cells::by_fraction(positions, options.fraction)
-        };
-        Self {
-            grid: cells.zip(Pose::new(positions)),
-        }
-    }
-}
-
-/// Where each vertex of the scene is found. Searched points are numbered object by object: first
-/// all that are vertices themselves, then those of the grids.
-fn places(meshes: &[Mesh], scene: &Scene) -> Vec<Place> {
-    let mut places = Vec::new();
-    let (mut first_cell, mut direct) = (0, 0);
-    for (mesh, object) in meshes.iter().zip(&scene.objects) {
-        match &mesh.grid {
-            Some((cells, _)) => {
-                let place = |(cell, local): &(u32, Vec3)| Place {
-                    local: *local,
-                    cell: first_cell + cell,
-                };
-                places.extend(cells.places.iter().map(place));
-                first_cell += cells.cells.len() as u32;
-            }
-            None => {
-                for _ in &object.mesh.positions {
-                    places.push(Place {
-                        local: Vec3::ZERO,
-                        cell: Place::DIRECT | direct,
-                    });
-                    direct += 1;
-                }
-            }
-        }
-    }
-    places
-}
-
-/// The inside of a mirror.
-struct Solid<'a> {
-    shape: &'a dyn MirrorShape,
-    low: DVec3,
-    high: DVec3,
-}
-
-impl<'a> Solid<'a> {
-    /// `None` for a mirror that encloses nothing.
-    fn new(shape: &'a dyn MirrorShape) -> Option<Self> {
-        let (low, high) = shape.bounds();
-        shape.is_closed().then_some(Self { shape, low, high })
-    }
-
-    fn contains(&self, point: DVec3) -> bool {
-        let in_box = point.cmpge(self.low).all() && point.cmple(self.high).all();
-        in_box && self.shape.encloses(point)
-    }
+/// World-space positions of each object.
+fn meshes(scene: &Scene) -> Vec<&[Vec3]> {
+    let objects = scene.objects.iter();
+    objects
+        .map(|object| object.mesh.positions.as_slice())
+        .collect()
 }
 
 impl Interpolation {
     fn new(options: &Grid, context: &Context<'_>) -> Result<Self, ReflectError> {
         let Context { gpu, stage, .. } = context;
         let scene = stage.world.scene.clone();
-        let meshes: Vec<_> = (scene.objects.iter())
-            .map(|object| Mesh::new(&object.mesh.positions, options))
-            .collect();
+        let forest = options.forest(&meshes(&scene));
+        let poses = meshes(&scene).into_iter().map(Pose::new).collect();
         let mut drawn = context.drawn;
         if !options.is_bypassed() {
             // Between images in space there are only images in space.
             drawn.depth = Depth::Virtual;
         }
         let raster = Raster::new(gpu, drawn, stage, "stage/virtual", &[], &[Slot::Read])?;
-        let read = Slot::Read;
-        let layout = layout(gpu, "grid", &[read, read, read, read, read, Slot::Write]);
-        let continued = context.continued.then_some("continued");
-        let module = module(gpu, "grid", continued.as_slice())?;
-        let layouts = [Some(&stage.world.view_layout), Some(&layout)];
+        let settling = match options.settles() {
+            true => Some(Settling::new(context, &forest, options.error as f32)?),
+            false => None,
+        };
+        let features = [
+            (context.continued, "continued"),
+            (context.continued, "extend"),
+            (options.settles(), "settled"),
+            (options.polishes(), "polish"),
+        ];
+        let features = features.into_iter().filter(|(on, _)| *on);
+        let features: Vec<_> = features.map(|(_, name)| name).collect();
+        let (read, write) = (Slot::Read, Slot::Write);
+        let slots = [read, read, read, read, read, write, read];
+        let slots = &slots[..6 + usize::from(options.settles())];
+        let layout = layout(gpu, "grid/interpolate", slots);
+        let module = module(gpu, "grid/interpolate", &features)?;
+        let mirror = options.polishes().then_some(&stage.gbuffer.mirror_layout);
+        let layouts = [Some(&stage.world.view_layout), mirror, Some(&layout)];
         let mut made = Self {
             interpolate: compute(gpu, &module, "interpolate", &layouts),
             raster,
             layout,
             points_layout: context.points_layout.clone(),
-            places: storage(gpu, &places(&meshes, &scene)),
-            meshes,
+            places: storage(gpu, &forest.places),
+            cells: storage(gpu, &forest.cells),
+            forest,
+            poses,
+            settling,
+            polishes: options.polishes(),
             mirrors: Vec::new(),
             scene,
             fresh: true,
@@ -215,67 +228,62 @@ impl Interpolation {
         Ok(made)
     }
 
-    /// Makes what is searched on each mirror, for objects and mirrors as they stand.
+    /// World-space positions of the records, for objects as they stand.
+    fn positions(&self) -> Vec<[f32; 4]> {
+        let meshes = meshes(&self.scene);
+        let all: Vec<_> = meshes.iter().copied().flatten().copied().collect();
+        let vertices = self.forest.vertices.iter().map(|vertex| all[*vertex as usize]);
+        let moves = self.poses.iter().zip(&meshes).map(|(pose, positions)| {
+            let pose = pose.as_ref();
+            pose.map_or(DAffine3::IDENTITY, |pose| pose.moved(positions))
+        });
+        let moves: Vec<_> = moves.collect();
+        let points = self.forest.points.iter();
+        let points = points.map(|point| moves[point.object].transform_point3(point.rest).as_vec3());
+        let positions = vertices.chain(points);
+        positions.map(|p| p.extend(1.0).to_array()).collect()
+    }
+
+    /// Makes what is searched on each mirror, for objects as they stand.
     fn searches(&self, gpu: &Gpu, stage: &Stage) -> Vec<OnMirror> {
-        let shapes = self.scene.mirrors.iter().map(|mirror| &mirror.shape);
-        shapes
-            .map(|shape| self.on_mirror(gpu, stage, &**shape))
+        let positions = storage_bytes(gpu, bytemuck::cast_slice(&self.positions()));
+        let mirrors = self.scene.mirrors.iter();
+        mirrors
+            .map(|_| self.on_mirror(gpu, stage, &positions))
             .collect()
     }
 
-    fn on_mirror(&self, gpu: &Gpu, stage: &Stage, shape: &dyn MirrorShape) -> OnMirror {
-        let solid = Solid::new(shape);
-        let mut positions: Vec<[f32; 4]> = Vec::new();
-        let four = |p: Vec3| [p.x, p.y, p.z, 1.0];
-        let objects = || self.meshes.iter().zip(&self.scene.objects);
-        for (mesh, object) in objects() {
-            if mesh.grid.is_none() {
-                positions.extend(object.mesh.positions.iter().copied().map(four));
-            }
-        }
-        let mut corners = Vec::new();
-        let mut dropped = 0;
-        for (mesh, object) in objects() {
-            let Some((cells, pose)) = &mesh.grid else {
-                continue;
-            };
-            let moved = pose.moved(&object.mesh.positions);
-            let vertices = cells.vertices.iter().map(|vertex| {
-                let vertex = moved.transform_point3(*vertex);
-                if solid.as_ref().is_some_and(|solid| solid.contains(vertex)) {
-                    dropped += 1;
-                    return DROPPED;
-                }
-                positions.push(four(vertex.as_vec3()));
-                positions.len() as u32 - 1
-            });
-            let slots: Vec<_> = vertices.collect();
-            let cells = cells.cells.iter().flatten();
-            corners.extend(cells.map(|corner| slots[*corner as usize]));
-        }
-        let count = positions.len() as u32;
-        let positions = storage_bytes(gpu, bytemuck::cast_slice(&positions));
-        let searched = Points::new(gpu, &self.points_layout, &positions, count);
+    fn on_mirror(&self, gpu: &Gpu, stage: &Stage, positions: &wgpu::Buffer) -> OnMirror {
         let world = &stage.world;
-        let vertices = world.vertices();
-        let interpolated = Points::new(gpu, &self.points_layout, &world.positions, vertices);
-        let corners = storage_bytes(gpu, bytemuck::cast_slice(&corners));
-        let resources = [
+        let layout = &self.points_layout;
+        let (searched, settled) = match &self.settling {
+            Some(settling) => {
+                let (points, settled) = settling.on_mirror(gpu, layout, positions, &self.cells);
+                (points, Some(settled))
+            }
+            None => {
+                let records = self.forest.records();
+                (Points::new(gpu, layout, positions, records), None)
+            }
+        };
+        let interpolated = Points::new(gpu, layout, &world.positions, world.vertices());
+        let mut buffers = vec![
             &self.places,
-            &corners,
-            &positions,
+            &self.cells,
+            positions,
             &searched.found,
             &world.positions,
             &interpolated.found,
         ];
-        let resources = resources.map(wgpu::Buffer::as_entire_binding);
+        buffers.extend(settled.as_ref().map(|settled| &settled.states));
+        let resources = buffers.iter().map(|buffer| buffer.as_entire_binding());
+        let resources: Vec<_> = resources.collect();
         let found = interpolated.found.as_entire_binding();
         OnMirror {
             interpolate: group(gpu, &self.layout, &resources),
             draw: group(gpu, &self.raster.own_layout, &[found]),
             searched,
-            count,
-            dropped,
+            settled,
             interpolated,
         }
     }
@@ -284,12 +292,10 @@ impl Interpolation {
 impl Refine for Interpolation {
     fn update(&mut self, gpu: &Gpu, stage: &Stage) {
         let now = &stage.world.scene;
-        let objects = now.objects.iter().zip(&self.scene.objects);
-        let mirrors = now.mirrors.iter().zip(&self.scene.mirrors);
-        let still = objects
-            .into_iter()
-            .all(|(a, b)| a.mesh.positions == b.mesh.positions)
-            && mirrors.into_iter().all(|(a, b)| a.shape == b.shape);
+        let mut objects = now.objects.iter().zip(&self.scene.objects);
+        let mut mirrors = now.mirrors.iter().zip(&self.scene.mirrors);
+        let still = objects.all(|(a, b)| a.mesh.positions == b.mesh.positions)
+            && mirrors.all(|(a, b)| a.shape == b.shape);
         if !still {
             self.scene = now.clone();
             self.mirrors = self.searches(gpu, stage);
@@ -297,10 +303,20 @@ impl Refine for Interpolation {
         }
     }
 
+    fn reads_maps(&self) -> bool {
+        self.polishes
+    }
+
     fn begin_frame(&mut self, gpu: &Gpu, _stage: &Stage, warm: bool) {
         let warm = warm && !std::mem::take(&mut self.fresh);
-        for mirror in &self.mirrors {
-            mirror.searched.set_warm(gpu, mirror.count, warm);
+        for OnMirror {
+            searched, settled, ..
+        } in &self.mirrors
+        {
+            match settled {
+                Some(_) => searched.set_list_warm(gpu, warm),
+                None => searched.set_warm(gpu, self.forest.records(), warm),
+            }
         }
     }
 
@@ -314,11 +330,20 @@ impl Refine for Interpolation {
     ) {
         let world = &stage.world;
         let on_mirror = &self.mirrors[mirror];
-        search.record_search(frame, stage, mirror, &on_mirror.searched, variant);
+        let searched = &on_mirror.searched;
+        match (&self.settling, &on_mirror.settled) {
+            (Some(settling), Some(settled)) => {
+                settling.record(frame, stage, search, (mirror, searched, settled), variant);
+            }
+            _ => search.record_search(frame, stage, mirror, searched, variant),
+        }
         frame.compute("interpolate", |pass| {
             pass.set_pipeline(&self.interpolate);
             pass.set_bind_group(0, &world.view_group, &[]);
-            pass.set_bind_group(1, &on_mirror.interpolate, &[]);
+            if self.polishes {
+                pass.set_bind_group(1, &stage.maps().mirror_groups[mirror], &[]);
+            }
+            pass.set_bind_group(2, &on_mirror.interpolate, &[]);
             on_mirror.interpolated.run(pass, &self.interpolate);
         });
         let found = &on_mirror.draw;
@@ -337,26 +362,15 @@ impl Refine for Interpolation {
     }
 
     fn efforts(&self, gpu: &Gpu, _stage: &Stage) -> Efforts {
+        let records = self.forest.records();
         let mut total = Efforts::default();
         for mirror in &self.mirrors {
-            total.add(mirror.searched.total(gpu, mirror.count));
+            total.add(match &mirror.settled {
+                Some(settled) => settled.efforts(gpu, &mirror.searched, records),
+                None => mirror.searched.total(gpu, records),
+            });
         }
         total
-    }
-
-    fn notes(&self) -> Vec<String> {
-        let inside = self.mirrors.iter().zip(&self.scene.mirrors);
-        inside
-            .filter(|(on, _)| on.dropped > 0)
-            .map(|(on, mirror)| {
-                let all = on.count + on.dropped;
-                let name = &mirror.name;
-                format!(
-                    "{} of {all} grid vertices lie inside mirror `{name}` and are left out",
-                    on.dropped
-                )
-            })
-            .collect()
     }
 
     fn triangles(&self, _gpu: &Gpu, stage: &Stage) -> Triangles {

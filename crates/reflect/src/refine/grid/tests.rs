@@ -3,6 +3,7 @@
 use catoptric_frame::VertexState;
 use glam::Vec2;
 
+use super::forest::Place;
 use super::*;
 use crate::testing::{assert_layout, gpu_or_skip, scene};
 use crate::{Output, Prepared, parse, prepare};
@@ -192,5 +193,5 @@ fn the_grid_moves_with_its_mesh() {
 
 #[test]
 fn a_place_lies_as_the_shader_reads_it() {
-    assert_layout!(Place { local, cell }, "grid", &[], "Place");
+    assert_layout!(Place { local, cell }, "grid/interpolate", &[], "Place");
 }

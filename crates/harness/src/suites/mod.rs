@@ -86,6 +86,21 @@ pub fn help() -> String {
     format!("Suites:{lines}")
 }
 
+/// Every suite's claims, judged by these rows.
+pub fn claims_by(rows: &[Row]) -> Vec<ledger::Entry> {
+    let suites = SUITES.iter().filter(|suite| whole_of(suite).is_none());
+    let entries = suites.flat_map(|suite| {
+        let figures = (suite.figures)(&Asked::default()).into_iter();
+        figures.flat_map(|figure| ledger::of_figure(suite.name, &figure, rows))
+    });
+    entries.collect()
+}
+
+/// Of a suite that is another one's larger grid, the other's name.
+fn whole_of(suite: &Suite) -> Option<&'static str> {
+    suite.name.strip_suffix("-full")
+}
+
 /// The suite that measures every cell: its name ends in `-full`.
 pub fn whole(suite: &Suite) -> anyhow::Result<&'static Suite> {
     let name = format!("{}-full", suite.name);

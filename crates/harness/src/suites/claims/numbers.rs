@@ -78,7 +78,7 @@ pub enum Noise {
 }
 
 /// A share of a time by which two runs of the same differ on a busy machine.
-pub const CLOCK: f64 = 0.15;
+pub const CLOCK: f64 = 0.1;
 /// The least share of a time that can be told.
 pub const LEAST_CLOCK: f64 = 0.03;
 

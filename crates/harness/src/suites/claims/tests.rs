@@ -85,12 +85,19 @@ fn candidates(limit: Limit) -> Vec<f64> {
     all
 }
 
+/// How often numbers are made up for a claim at most.
+const TRIES: u64 = 100_000;
+
 /// The verdicts, by their keys, that made-up numbers bring about: numbers of a series that go as a power
 /// of the place, and here and there one place that is other.
-fn verdicts(claim: &Claim, figure: &Figure, tries: u64) -> BTreeMap<&'static str, u64> {
+fn verdicts(
+    claim: &Claim,
+    figure: &Figure,
+    wanted: &[&'static str],
+) -> BTreeMap<&'static str, u64> {
     let candidates = candidates(claim.rule.is);
     let paths = claim.rule.of.paths();
-    let mut powers = vec![0.0, 0.0, 0.0, 1.0, -1.0];
+    let mut powers = vec![0.0, 0.0, 0.0, 1.0, -1.0, 3.9, -3.9];
     powers.extend(
         candidates
             .iter()
@@ -100,7 +107,10 @@ fn verdicts(claim: &Claim, figure: &Figure, tries: u64) -> BTreeMap<&'static str
     let names = |x: f64| results::place_name(&figure.axis, x);
     let mut found = BTreeMap::new();
     let mut dice = Dice(1);
-    for _ in 0..tries {
+    for _ in 0..TRIES {
+        if wanted.iter().all(|key| found.contains_key(key)) {
+            break;
+        }
         let shared = dice.of(&candidates);
         let all: Vec<Vec<[f64; 4]>> = (figure.series.iter())
             .map(|series| {
@@ -124,6 +134,10 @@ fn verdicts(claim: &Claim, figure: &Figure, tries: u64) -> BTreeMap<&'static str
         // Often all series share what they are, so that claims about all of them hold or fail.
         let alike = dice.next() % 2 == 0;
         let value = |series: usize, x: f64, path: &str| {
+            // A recorded interval of a median is a narrow one here.
+            let path = path
+                .replace(".median_low", ".median")
+                .replace(".median_high", ".median");
             let place = paths.iter().position(|other| *other == path)?;
             let [factor, power, odd, other] = all[if alike { 0 } else { series }][place];
             let x_power = if x > 0.0 { x.powf(power) } else { 1.0 };
@@ -152,11 +166,12 @@ fn every_claim_can_come_out_either_way() {
         for figure in (suite.figures)(&Asked::default()) {
             for claim in figure.claims {
                 claims += 1;
-                let found = verdicts(claim, &figure, 30_000);
                 let noisy =
                     claim.rule.noise != Noise::Exact || matches!(claim.rule.of, Measure::Power(..));
                 let wanted = ["holds", "does-not-hold", "undecided"];
-                for key in &wanted[..if noisy { 3 } else { 2 }] {
+                let wanted = &wanted[..if noisy { 3 } else { 2 }];
+                let found = verdicts(claim, &figure, wanted);
+                for key in wanted {
                     if !found.contains_key(key) {
                         wanting.push(format!(
                             "{}, {}: {}: never {key}: {found:?}",

@@ -115,7 +115,7 @@ pub const LEVELS: &[Claim] = &[
         value(
             at(HIDDEN, 2.0),
             Term::Path(UNFINISHED),
-            Limit::Above(0.0),
+            Limit::Above(0.5),
             Noise::Exact,
             Shown::In("triangles"),
         ),
@@ -277,7 +277,7 @@ pub const CRACK: &[Claim] = &[
         value(
             at(TO_FIVE, 3.0),
             GAPS,
-            Limit::Above(0.0),
+            Limit::Above(0.5),
             Noise::Exact,
             Shown::In("pixels"),
         ),

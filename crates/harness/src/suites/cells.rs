@@ -182,7 +182,7 @@ fn cells(quantity: &Quantity, points: &[&Point], results: &Results<'_>) -> Vec<C
         .iter()
         .map(|point| results.value(point, quantity.path))
         .collect();
-    let colors = colors(&values, metric.better);
+    let colors = colors_by_scene(points, &values, metric.better);
     let cells = values.iter().zip(points).zip(colors);
     cells
         .map(|((value, point), style)| match value {
@@ -198,6 +198,27 @@ fn cells(quantity: &Quantity, points: &[&Point], results: &Results<'_>) -> Vec<C
             },
         })
         .collect()
+}
+
+/// Colours among the points of each scene; among all of them where no scene has several.
+fn colors_by_scene(points: &[&Point], values: &[Option<f64>], better: Better) -> Vec<String> {
+    let on = |scene: &str| -> Vec<usize> {
+        let all = points.iter().enumerate();
+        let all = all.filter(|(_, point)| point.scene == scene);
+        all.map(|(place, _)| place).collect()
+    };
+    if points.iter().all(|point| on(&point.scene).len() < 2) {
+        return colors(values, better);
+    }
+    let mut all = vec![String::new(); values.len()];
+    for point in points {
+        let places = on(&point.scene);
+        let own: Vec<Option<f64>> = places.iter().map(|place| values[*place]).collect();
+        for (place, color) in places.into_iter().zip(colors(&own, better)) {
+            all[place] = color;
+        }
+    }
+    all
 }
 
 /// A colour for each value, as CSS: blue for the best, orange for the worst, none in the middle.
@@ -244,6 +265,17 @@ mod tests {
         assert!(high[2].contains("42, 134, 200, 0.55") && high[0].contains("221, 106, 19, 0.55"));
         assert!(low[0].contains("42, 134, 200") && low[2].contains("221, 106, 19"));
         assert_eq!((high[1].as_str(), low[1].as_str()), ("", ""));
+    }
+
+    #[test]
+    fn techniques_are_compared_scene_by_scene() {
+        let points = ["a", "a", "b", "b"].map(|scene| Point::new(0.0, scene, "linear"));
+        let points: Vec<&Point> = points.iter().collect();
+        let values = [1.0, 2.0, 100.0, 200.0].map(Some);
+        let colors = colors_by_scene(&points, &values, Better::Low);
+        assert_eq!(colors[0], colors[2]);
+        assert_eq!(colors[1], colors[3]);
+        assert_ne!(colors[0], colors[1]);
     }
 
     #[test]

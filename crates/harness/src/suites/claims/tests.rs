@@ -340,7 +340,7 @@ fn a_time_is_as_sure_as_its_recorded_interval() {
         [time.low, time.high]
     };
     assert_eq!(read(Some(8.0)), [8.0, 11.0]);
-    assert_eq!(read(None), [8.5, 11.5]);
+    assert_eq!(read(None), [9.0, 11.0]);
     assert_eq!(read(Some(9.99))[0], 9.7);
 }
 

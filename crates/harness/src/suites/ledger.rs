@@ -1,11 +1,13 @@
 //! The table of claims: paper, section, claim, figure, number and verdict, from the rows of any suites.
 
+use std::cell::RefCell;
+
 use serde_json::{Value, json};
 
 use crate::show::number::count;
 use crate::show::table::Table;
 
-use super::claims::{Claim, Finding, Limit, Paper, UNJUDGED};
+use super::claims::{Claim, Finding, Limit, Numbers, Paper, UNJUDGED};
 use super::figure::Figure;
 use super::results::{Results, Row};
 
@@ -44,6 +46,64 @@ pub fn of_figure(suite: &'static str, figure: &Figure, rows: &[Row]) -> Vec<Entr
         sizes: sizes.join(", "),
     };
     figure.claims.iter().map(entry).collect()
+}
+
+/// A figure with those points alone that its published claims read.
+pub fn pared(figure: &Figure) -> Figure {
+    let read = Read {
+        figure,
+        points: RefCell::default(),
+    };
+    let published = figure.claims.iter();
+    for claim in published.filter(|claim| claim.paper != Paper::Ours) {
+        claim.rule.judge(&read);
+    }
+    let read = read.points.into_inner();
+    let mut pared = figure.clone();
+    for series in &mut pared.series {
+        let is_read = |x: f64| {
+            read.iter()
+                .any(|(label, place)| *label == series.label && *place == x)
+        };
+        series.points.retain(|point| is_read(point.x));
+    }
+    pared.series.retain(|series| !series.points.is_empty());
+    pared
+}
+
+/// Numbers that are all 1, to see which ones are read.
+struct Read<'f> {
+    figure: &'f Figure,
+    points: RefCell<Vec<(String, f64)>>,
+}
+
+impl Numbers for Read<'_> {
+    fn labels(&self) -> Vec<String> {
+        let series = self.figure.series.iter();
+        series.map(|series| series.label.clone()).collect()
+    }
+
+    fn places(&self, series: &str) -> Vec<f64> {
+        let found = self
+            .figure
+            .series
+            .iter()
+            .find(|found| found.label == series);
+        let points = found.map_or(&[][..], |series| &series.points);
+        points.iter().map(|point| point.x).collect()
+    }
+
+    fn at(&self, series: &str, x: f64, _: &str) -> Option<f64> {
+        let known = self.places(series).contains(&x);
+        if known {
+            self.points.borrow_mut().push((series.to_owned(), x));
+        }
+        known.then_some(1.0)
+    }
+
+    fn place_name(&self, _: f64) -> String {
+        String::new()
+    }
 }
 
 impl Entry {
@@ -177,4 +237,93 @@ pub fn value(entries: &[Entry]) -> Value {
         })
     });
     judged.chain(open).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::tests::measured;
+    use crate::show::plot::Axis;
+    use crate::suites::claims::make::{claim, difference};
+    use crate::suites::claims::{Noise, Term, at};
+    use crate::suites::paths::AGREEMENT;
+    use crate::suites::series::{Point, Series};
+
+    const CLAIMS: &[Claim] = &[claim(
+        Paper::Szabo2013,
+        "1",
+        "The one is better.",
+        difference(
+            at("one", 0.0),
+            at("other", 0.0),
+            Term::Path(AGREEMENT),
+            Limit::Above(0.01),
+            Noise::Plus(0.001),
+        ),
+        "one in a hundred.",
+    )];
+
+    fn figure() -> Figure {
+        let series =
+            |label, technique: &str| Series::new(label, [Point::new(0.0, "bowl", technique)]);
+        Figure {
+            anchor: "a",
+            title: String::new(),
+            after: "",
+            question: String::new(),
+            axis: Axis::linear("x"),
+            series: vec![series("one", "linear"), series("other", "newton")],
+            quantities: Vec::new(),
+            quotes: &[],
+            claims: CLAIMS,
+        }
+    }
+
+    fn row(technique: &str, agreement: f64) -> Row {
+        let mut row = measured("bowl", technique);
+        row.object_agreement = Some(agreement);
+        // As a file has it.
+        Row::read(serde_json::to_value(row).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn a_figure_that_is_measured_in_part_has_no_verdict() {
+        let entries = of_figure("s", &figure(), &[row("linear", 0.9)]);
+        assert_eq!((entries.len(), entries[0].key()), (1, "not-measured"));
+        assert!(tally(&entries).ends_with("1 not measured."));
+    }
+
+    #[test]
+    fn what_no_claim_reads_is_left_out() {
+        let mut figure = figure();
+        figure.series[0]
+            .points
+            .push(Point::new(1.0, "bowl", "planar"));
+        figure
+            .series
+            .push(Series::new("third", [Point::new(0.0, "bowl", "planar")]));
+        let pared = pared(&figure);
+        let left = pared
+            .series
+            .iter()
+            .map(|series| (series.label.as_str(), series.points.len()));
+        assert_eq!(left.collect::<Vec<_>>(), [("one", 1), ("other", 1)]);
+    }
+
+    #[test]
+    fn a_verdict_stands_in_the_table_with_its_number() {
+        let rows = [row("linear", 0.9), row("newton", 0.8)];
+        let entries = published(of_figure("s", &figure(), &rows));
+        assert_eq!(entries[0].sizes, "640×480");
+        let cells = &table(&entries).rows[0];
+        assert_eq!(
+            cells[..4],
+            ["Szabo 2013", "1", "The one is better.", "s: a"]
+        );
+        assert_eq!(cells[4..], ["10.0 %", "holds"]);
+        let json = value(&entries);
+        assert_eq!(json[0]["verdict"], "holds");
+        assert_eq!(json[0]["limit"]["above"], 0.01);
+        assert_eq!(json.as_array().unwrap().len(), 1 + UNJUDGED.len());
+    }
 }

@@ -10,7 +10,7 @@ use crate::suites::paths::{AGREEMENT, ANGLE, FLIP, FRAME_MS};
 use crate::suites::series::{Point, Series};
 use crate::suites::shelf;
 use crate::suites::suite::{Asked, Budget, Layout, Suite};
-use crate::suites::{control, cubemap, estalella, search, tessellation};
+use crate::suites::{control, cubemap, estalella, ledger, search, tessellation};
 
 /// The suite.
 pub const SUITE: Suite = Suite {
@@ -152,9 +152,9 @@ fn judged(scene: Option<&str>) -> Vec<(&'static str, Figure)> {
         let figures = (suite.figures)(&Asked::default()).into_iter();
         figures.map(|figure| (suite.name, figure))
     });
-    let published = |claim: &Claim| claim.paper != Paper::Ours;
+    let figures = figures.map(|(suite, figure)| (suite, ledger::pared(&figure)));
     let mut figures: Vec<_> = figures
-        .filter(|(_, figure)| figure.claims.iter().any(published))
+        .filter(|(_, figure)| !figure.series.is_empty())
         .collect();
     for (suite, figure) in &mut figures {
         for point in figure
@@ -248,3 +248,23 @@ const ALL: &[Claim] = &[
         "the share of right mirror pixels that the corrected one has more.",
     ),
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::suites::plan;
+
+    #[test]
+    fn what_decides_the_claims_is_not_all_that_the_suites_measure() {
+        let figures = judged(None).into_iter().map(|(_, figure)| figure);
+        let own = figures_of_the_page().into_iter();
+        let all: Vec<Figure> = own.chain(figures).collect();
+        let jobs = plan::wanted(&all, SUITE.timing);
+        let rows: usize = jobs.iter().map(|job| job.techniques.len()).sum();
+        assert!((200..500).contains(&rows), "{rows}");
+    }
+
+    fn figures_of_the_page() -> Vec<Figure> {
+        figures(&Asked::default())
+    }
+}

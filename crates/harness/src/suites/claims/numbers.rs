@@ -261,7 +261,7 @@ impl Pick {
             }
             Place::Each => return known().map(|(x, value)| (Some(x), value)).collect(),
             Place::First => known().next(),
-            Place::Last => known().last(),
+            Place::Last => known().next_back(),
             Place::Least => known().min_by(by_value),
             Place::Most => known().max_by(by_value),
         };

@@ -8,6 +8,7 @@ mod heat;
 mod levels;
 mod options;
 mod published;
+mod results;
 mod skipped;
 mod sweeps;
 mod techniques;
@@ -46,13 +47,14 @@ fn pictures(studio: &Studio<'_>) -> anyhow::Result<Vec<Picture>> {
     let mut pictures = heat::pictures(studio)?;
     pictures.extend(skipped::pictures(studio)?);
     pictures.extend(levels::pictures(studio)?);
+    pictures.extend(results::pictures(studio)?);
     Ok(pictures)
 }
 
 fn figures(scene: Option<&str>, grid: grid::Grid) -> Vec<Figure> {
     let mut figures = vec![grid.figure(scene)];
     if scene.is_none() {
-        figures.push(published::figure(grid.windows));
+        figures.extend([published::figure(grid.windows), results::figure()]);
     }
     let own = scene.map(|scene| [scene]);
     let scenes = own.as_ref().map_or(data::SCENES.as_slice(), |scene| scene);

@@ -32,9 +32,10 @@ macro_rules! scenes {
 }
 
 /// Scenes with a file of their own.
-const SCENES: [(&str, &str); 23] = scenes![
+const SCENES: [(&str, &str); 27] = scenes![
     "sphere-square",
     "sphere-square-hidden",
+    "ellipsoid-square",
     "sphere-objects-1k",
     "sphere-objects-20k",
     "spheres",
@@ -47,8 +48,11 @@ const SCENES: [(&str, &str); 23] = scenes![
     "faceted",
     "kitchen",
     "box",
+    "distant",
+    "box-teapot",
     "room",
     "atrium",
+    "atrium-teapot",
     "torus",
     "saddle",
     "prototype-sphere",
@@ -58,13 +62,55 @@ const SCENES: [(&str, &str); 23] = scenes![
     "sponza-ball",
 ];
 
+/// What a family changes in its template.
+enum Change {
+    /// The number of a key, which is this one in the template.
+    Number(&'static str, &'static str),
+    /// How many tables of a name there are, which are its last ones: those behind are left out.
+    Tables(&'static str),
+    /// Which object there is, by its name; the others are left out.
+    Object,
+}
+
+impl Change {
+    /// A template with the number of a scene.
+    fn applied(&self, template: &str, number: &str) -> String {
+        match self {
+            Self::Number(key, own) => {
+                let [own, new] = [*own, number].map(|number| format!("\n{key} = {number}"));
+                template.replacen(&own, &new, 1)
+            }
+            Self::Tables(name) => {
+                let kept: usize = number.parse().expect("a family counts its tables");
+                let behind = template.match_indices(name).nth(kept);
+                behind
+                    .map_or(template, |(at, _)| &template[..at])
+                    .to_owned()
+            }
+            Self::Object => {
+                let named = format!("\nname = \"{number}\"\n");
+                let mut kept = String::new();
+                for (place, table) in template.split("\n[").enumerate() {
+                    if table.starts_with("[object]]") && !table.contains(&named) {
+                        continue;
+                    }
+                    if place > 0 {
+                        kept += "\n[";
+                    }
+                    kept += table;
+                }
+                kept
+            }
+        }
+    }
+}
+
 /// Scenes that differ in one number of a template.
 struct Family {
     /// What their names begin with.
     prefix: &'static str,
     template: &'static str,
-    /// The key, with the template's own number.
-    line: (&'static str, &'static str),
+    change: Change,
     /// What their names end with, and their numbers.
     sizes: &'static [(&'static str, &'static str)],
 }
@@ -83,35 +129,35 @@ const GRID_SIZES: &[(&str, &str)] = &[
 /// Those of scenes that are looked at beside a family.
 const FEW_SIZES: &[(&str, &str)] = &[("1k", "31"), ("10k", "99")];
 
-const FAMILIES: [Family; 6] = [
+const FAMILIES: [Family; 10] = [
     Family {
         prefix: "sphere-grid-full-",
         template: include_str!("../../../scenes/template-sphere-grid-full.toml"),
-        line: ("n", "8"),
+        change: Change::Number("n", "8"),
         sizes: GRID_SIZES,
     },
     Family {
         prefix: "sphere-grid-",
         template: include_str!("../../../scenes/template-sphere-grid.toml"),
-        line: ("n", "8"),
+        change: Change::Number("n", "8"),
         sizes: GRID_SIZES,
     },
     Family {
         prefix: "sphere-grid-full-hidden-",
         template: include_str!("../../../scenes/template-sphere-grid-full-hidden.toml"),
-        line: ("n", "8"),
+        change: Change::Number("n", "8"),
         sizes: FEW_SIZES,
     },
     Family {
         prefix: "sphere-grid-hidden-",
         template: include_str!("../../../scenes/template-sphere-grid-hidden.toml"),
-        line: ("n", "8"),
+        change: Change::Number("n", "8"),
         sizes: FEW_SIZES,
     },
     Family {
         prefix: "sphere-drawn-",
         template: include_str!("../../../scenes/template-sphere-drawn.toml"),
-        line: ("tessellation", "128"),
+        change: Change::Number("tessellation", "128"),
         sizes: &[
             ("8", "8"),
             ("16", "16"),
@@ -124,13 +170,49 @@ const FAMILIES: [Family; 6] = [
     Family {
         prefix: "prototype-sphere-zoom-",
         template: include_str!("../../../scenes/prototype-sphere.toml"),
-        line: ("fov_y", "34.0"),
+        change: Change::Number("fov_y", "34.0"),
         sizes: &[
             ("2", "17.382514"),
             ("4", "8.741543"),
             ("8", "4.377139"),
             ("16", "2.189368"),
             ("32", "1.094784"),
+        ],
+    },
+    Family {
+        prefix: "sphere-small-",
+        template: include_str!("../../../scenes/sphere-objects-1k.toml"),
+        change: Change::Number("fov_y", "36.0"),
+        sizes: &[("2", "66.034796"), ("4", "104.84913"), ("8", "137.915489")],
+    },
+    Family {
+        prefix: "square-small-",
+        template: include_str!("../../../scenes/sphere-square.toml"),
+        change: Change::Number("fov_y", "36.0"),
+        sizes: &[("4", "104.84913")],
+    },
+    Family {
+        prefix: "sphere-table-only-",
+        template: include_str!("../../../scenes/sphere-table.toml"),
+        change: Change::Object,
+        sizes: &[
+            ("cloth", "cloth"),
+            ("candlestick", "candlestick"),
+            ("teapot", "teapot"),
+            ("apple", "apple"),
+        ],
+    },
+    Family {
+        prefix: "mirrors-",
+        template: include_str!("../../../scenes/template-mirrors.toml"),
+        change: Change::Tables("[[mirror]]"),
+        sizes: &[
+            ("1", "1"),
+            ("2", "2"),
+            ("3", "3"),
+            ("4", "4"),
+            ("6", "6"),
+            ("8", "8"),
         ],
     },
 ];
@@ -153,9 +235,7 @@ pub fn text(name: &str) -> Option<String> {
     let sized = FAMILIES.iter().find_map(|family| {
         let size = name.strip_prefix(family.prefix)?;
         let (_, number) = family.sizes.iter().find(|(known, _)| *known == size)?;
-        let (key, own) = family.line;
-        let [own, new] = [own, *number].map(|number| format!("\n{key} = {number}"));
-        Some(family.template.replacen(&own, &new, 1))
+        Some(family.change.applied(family.template, number))
     });
     sized.or_else(|| moving::text(name))
 }

@@ -5,7 +5,7 @@ use clap::{Parser, Subcommand};
 use crate::check::case::Request;
 use crate::options::Common;
 
-use super::{bench, compare, diff, export, list, reference, render, report, summary};
+use super::{bench, claims, compare, diff, export, list, reference, render, report, summary};
 
 /// How exact, how fast and how steady is a real-time reflection on a curved mirror?
 #[derive(Debug, Parser)]
@@ -43,6 +43,8 @@ pub enum Command {
     Diff(diff::Args),
     /// The short table of a recorded run (Markdown), on stdout or spliced into a text
     Summary(summary::Args),
+    /// What became of the papers' claims, by recorded runs of `bench`, on stdout or spliced into a text
+    Claims(claims::Args),
     /// Write a scene for another renderer
     Export(export::Args),
     /// Compare our tracer with pictures that another renderer made of the same scenes

@@ -3,6 +3,7 @@
 mod args;
 mod bench;
 mod check;
+mod claims;
 mod compare;
 mod diff;
 mod doctor;
@@ -12,6 +13,7 @@ mod picture;
 mod reference;
 mod render;
 mod report;
+mod splice;
 mod summary;
 mod unused;
 
@@ -66,6 +68,7 @@ fn run(Cli { command, common }: Cli) -> anyhow::Result<Outcome> {
         Command::Report(args) => report::run(&args, &common),
         Command::Diff(args) => diff::run(&args, &common),
         Command::Summary(args) => summary::run(&args, &common),
+        Command::Claims(args) => claims::run(&args, &common),
         Command::Export(args) => export::run(&args, &common),
         Command::Check(args) => check::run(&args, &common),
         Command::Doctor => doctor::run(&common),

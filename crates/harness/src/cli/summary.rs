@@ -3,16 +3,15 @@
 
 use std::path::PathBuf;
 
-use catoptric_frame::write_whole;
 use serde_json::Value;
 
 use crate::exit::{Outcome, bad_input};
-use crate::input;
 use crate::options::{Common, Format};
-use crate::output::check_writable;
 use crate::record;
 use crate::show::print;
 use crate::show::summary::{markdown, table};
+
+use super::splice;
 
 /// What `summary` is asked.
 #[derive(Clone, Debug, clap::Args)]
@@ -23,11 +22,6 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     pub into: Option<PathBuf>,
 }
-
-/// Line before the table in a text.
-const BEGIN: &str = "<!-- summary: begin -->";
-/// Line after it.
-const END: &str = "<!-- summary: end -->";
 
 /// Prints the summary of a record, or splices it into a text between its markers.
 pub fn run(args: &Args, common: &Common) -> anyhow::Result<Outcome> {
@@ -46,36 +40,6 @@ pub fn run(args: &Args, common: &Common) -> anyhow::Result<Outcome> {
         };
         return print::result(&text, common).map(|()| Outcome::Done);
     };
-    check_writable(into)?;
-    let text = input::text(into)?;
-    let spliced = splice(&text, &markdown(&rows, path)).ok_or_else(|| {
-        let file = into.display();
-        bad_input(format!(
-            "{file}: no line `{BEGIN}` with a line `{END}` after it"
-        ))
-    })?;
-    write_whole(into, spliced.as_bytes())?;
+    splice::into_file(into, "summary", &markdown(&rows, path))?;
     Ok(Outcome::Done)
-}
-
-/// Replaces what stands between the markers.
-fn splice(text: &str, summary: &str) -> Option<String> {
-    let (before, rest) = text.split_once(BEGIN)?;
-    let (_, after) = rest.split_once(END)?;
-    Some(format!("{before}{BEGIN}\n{summary}{END}{after}"))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_spliced_twice_is_spliced_once() {
-        let text = format!("# A\n{BEGIN}\nold\n{END}\nB\n");
-        let once = splice(&text, "new\n").unwrap();
-        assert_eq!(once, format!("# A\n{BEGIN}\nnew\n{END}\nB\n"));
-        assert_eq!(splice(&once, "new\n").unwrap(), once);
-        assert_eq!(splice("no markers", "new\n"), None);
-        assert_eq!(splice(&format!("{END}{BEGIN}"), "new\n"), None);
-    }
 }

@@ -74,7 +74,7 @@ fn coverage(row: &Record) -> Option<String> {
     let mut parts = Vec::new();
     if let Some(missing) = coverage.missing.filter(|share| *share > 0.0) {
         let reason = match drops {
-            true => "; a triangle is dropped as soon as one of its corners is hidden",
+            true => "; triangles with a hidden corner are dropped, which is a part of it",
             false => "",
         };
         parts.push(format!(
@@ -138,7 +138,7 @@ fn vertices(row: &Record) -> Option<String> {
             if far > 0.01 {
                 text += &format!(". For {} of them it is more than 5 px", percent(far));
                 if technique::properties(&row.technique).walks {
-                    text += ": a walk from texel to texel ends where no neighbour is better";
+                    text += "; a walk from texel to texel can end beside the best one, where no neighbour is better";
                 }
             }
         }

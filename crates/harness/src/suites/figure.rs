@@ -1,11 +1,10 @@
 //! What a figure of a suite is: an axis, series of points along it, what is drawn against it, and
 //! what is said about it.
 
+use super::claims::Claim;
+use super::series::{Ask, Series};
 use crate::record::metrics;
 use crate::show::plot::{Axis, Scale};
-use crate::suites::results::Results;
-
-use super::series::{Ask, Series};
 
 /// A sweep, and what is shown of it.
 #[derive(Clone, Debug)]
@@ -26,8 +25,8 @@ pub struct Figure {
     pub quantities: Vec<Quantity>,
     /// The paper's numbers.
     pub quotes: &'static [Quote],
-    /// What came out, in sentences (plain text).
-    pub analysis: fn(&Results<'_>) -> Vec<String>,
+    /// What the figure decides.
+    pub claims: &'static [Claim],
 }
 
 impl Figure {

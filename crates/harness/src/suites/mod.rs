@@ -14,12 +14,17 @@
 //! 2. Its `figures` function builds the figures, in the order of the page. It is given the user's
 //!    `--scene`, if any: put it in place of your scenes where the figure's axis is not the scene,
 //!    and leave out figures that make no sense then.
-//! 3. A figure has an `analysis` function that reads [`Results`] and says, in sentences, what came
-//!    out and whether the paper's claim holds here: written for any outcome, never for the one
-//!    that is hoped for. Numbers of the paper stand in `quotes`, with ours beside them.
+//! 3. What a figure decides are its [`claims::Claim`]s: who says what where, the rule that measures it,
+//!    and why the rule's limit is where it is. Nothing else is concluded on a page. Most rules are one
+//!    line (`claims::make`); where none fits, a [`claims::Measure::Own`] function makes the numbers.
+//!    The tests see to it that each can come out either way. Numbers of the paper stand in `quotes`,
+//!    with ours beside them.
 //! 4. Mark a few points with [`Point::shown`]: their pictures, reference and error map come on the
 //!    page. Pictures of another kind (a search path, a wireframe, a heat map) are made by
 //!    the suite's `pictures` function.
+//!
+//! A figure with at most three places along its axis, or with names along it, is shown as a table whose
+//! cells are coloured from best to worst, any other one as plots.
 //!
 //! The tests below check every suite: scenes and techniques exist, quantities have a row in the
 //! table of metrics, anchors are unique. Time: the whole suite, or each of its scenes, shares its
@@ -29,10 +34,14 @@
 //! The report is two suites, [`report::QUICK`] and [`report::FULL`], with a page by scenes.
 
 pub mod benched;
+mod cells;
+mod claims;
 mod control;
 mod cubemap;
 mod estalella;
 mod figure;
+mod fit;
+pub mod ledger;
 mod page;
 mod papers;
 mod paths;
@@ -52,7 +61,7 @@ use catoptric_scene::suggest;
 use crate::exit::bad_input;
 
 pub use figure::{Figure, Guide, Quantity, Quote};
-pub use results::Results;
+pub use results::Row;
 pub use series::{Ask, Point, Series};
 pub use suite::{Asked, Budget, Layout, Picture, Studio, Suite};
 
@@ -76,6 +85,21 @@ pub fn help() -> String {
     };
     let lines: String = SUITES.iter().map(line).collect();
     format!("Suites:{lines}")
+}
+
+/// Every suite's claims, judged by these rows.
+pub fn claims_by(rows: &[Row]) -> Vec<ledger::Entry> {
+    let suites = SUITES.iter().filter(|suite| whole_of(suite).is_none());
+    let entries = suites.flat_map(|suite| {
+        let figures = (suite.figures)(&Asked::default()).into_iter();
+        figures.flat_map(|figure| ledger::of_figure(suite.name, &figure, rows))
+    });
+    entries.collect()
+}
+
+/// Of a suite that is another one's larger grid, the other's name.
+fn whole_of(suite: &Suite) -> Option<&'static str> {
+    suite.name.strip_suffix("-full")
 }
 
 /// The suite that measures every cell: its name ends in `-full`.
@@ -122,6 +146,11 @@ mod tests {
                     for path in [quantity.path].into_iter().chain(guide) {
                         assert!(metrics::at(path).is_some(), "{what}: {path}");
                     }
+                }
+                for path in figure.claims.iter().flat_map(|claim| claim.rule.of.paths()) {
+                    let known = metrics::at(path).is_some()
+                        || [paths::WIDTH, paths::HEIGHT].contains(&path);
+                    assert!(known, "{what}: {path}");
                 }
                 for ask in figure.quotes.iter().filter_map(|quote| quote.ours) {
                     assert!(metrics::at(ask.path).is_some(), "{what}: {}", ask.path);

@@ -1,11 +1,6 @@
 //! A suite's page: figures, records and the names of pictures in; the page, a plot and a table a
 //! figure out.
 
-use anyhow::Context;
-use askama::Template;
-use catoptric_frame::write_whole;
-use serde_json::Value;
-
 use crate::options::Format;
 use crate::output::{Draft, FIGURES};
 use crate::record::{Record, Status};
@@ -13,9 +8,14 @@ use crate::show::number::{or_dash, short, significant};
 use crate::show::plot::{Axis, Curve, Mark, Plot, Scale, TALL};
 use crate::show::table::Table;
 use crate::show::{facts, pictures, words};
-use crate::suites::results::Results;
+use anyhow::Context;
+use askama::Template;
+use catoptric_frame::write_whole;
 
+use super::cells::{Grid, grids};
 use super::figure::{Figure, Quantity, Quote};
+use super::ledger::{self, Entry};
+use super::results::{Results, Row, place_name};
 use super::suite::{Picture, Suite};
 
 #[derive(Template)]
@@ -34,6 +34,16 @@ struct Page<'p> {
     environment: Vec<facts::Fact>,
     command: String,
     measured: usize,
+    ledger: Option<Ledger>,
+}
+
+/// The table of all claims.
+struct Ledger {
+    tally: String,
+    entries: Vec<Entry>,
+    open: Table,
+    /// As JSON and Markdown; empty on a page without files.
+    files: Vec<(&'static str, String)>,
 }
 
 /// A figure as the template wants it.
@@ -43,7 +53,8 @@ struct Shown<'p> {
     measured_at: Option<String>,
     /// How many points of how many, where some are not measured: then nothing is concluded.
     open: Option<String>,
-    analysis: Vec<String>,
+    claims: Vec<Entry>,
+    grids: Vec<Grid>,
     plots: Vec<Diagram>,
     quotes: Vec<Quotation<'p>>,
     table: Table,
@@ -66,6 +77,8 @@ pub struct Content<'p> {
     pub suite: &'p Suite,
     /// In the order of the page.
     pub figures: &'p [Figure],
+    /// Figures of all suites whose claims are judged in a table at the end, each with its suite's name.
+    pub judged: &'p [(&'static str, Figure)],
     /// What is measured so far.
     pub rows: &'p [Record],
     /// How many rows were asked for.
@@ -90,10 +103,7 @@ struct PictureRow<'p> {
 /// Where rows or pictures are missing, the page says so, and draws no conclusion from the others.
 pub fn render(content: &Content<'_>, files: Option<&Draft>) -> anyhow::Result<String> {
     let rows = content.rows;
-    let values: Vec<(Record, Value)> = rows
-        .iter()
-        .map(|row| (row.clone(), row.to_value()))
-        .collect();
+    let values: Vec<Row> = rows.iter().map(Row::of).collect();
     let shown = content
         .figures
         .iter()
@@ -119,6 +129,7 @@ pub fn render(content: &Content<'_>, files: Option<&Draft>) -> anyhow::Result<St
         environment: facts::environment(rows),
         command: facts::command(rows),
         measured: rows.len(),
+        ledger: ledger(content, &values, files)?,
     };
     page.render().context("filling the page's template")
 }
@@ -132,12 +143,17 @@ impl Content<'_> {
 fn show<'p>(
     content: &'p Content<'_>,
     figure: &'p Figure,
-    values: &'p [(Record, Value)],
+    values: &'p [Row],
     files: Option<&Draft>,
 ) -> anyhow::Result<Shown<'p>> {
-    let results = Results::new(&figure.series, values);
+    let results = Results::new(figure, values);
+    let grids = grids(figure, &results);
     let mut diagrams = Vec::new();
-    for quantity in &figure.quantities {
+    let plotted = match grids {
+        Some(_) => &[][..],
+        None => &figure.quantities,
+    };
+    for quantity in plotted {
         let plot = plot(figure, quantity, &results);
         let Some(svg) = plot.inline() else { continue };
         let path = format!(
@@ -171,11 +187,11 @@ fn show<'p>(
         }),
     });
     let points = || figure.series.iter().flat_map(|series| &series.points);
-    let measured = points().filter(|point| results.row(point).is_some());
+    let measured = points().filter(|point| results.index(point).is_some());
     let (measured, all) = (measured.count(), points().count());
     let open = measured < all && content.rows.len() < content.wanted;
     let pictured = points().filter(|point| point.picture);
-    let rows = pictured.filter_map(|point| results.row(point));
+    let rows = pictured.filter_map(|point| content.rows.get(results.index(point)?));
     let rows = rows.filter(|row| row.status == Status::Ok);
     let own = content.own.unwrap_or_default().iter();
     let size = figure.resolution();
@@ -183,10 +199,11 @@ fn show<'p>(
         figure,
         measured_at: size.map(|[width, height]| format!("{width} × {height}")),
         open: open.then(|| format!("{measured} of {all}")),
-        analysis: match open {
+        claims: match open {
             true => Vec::new(),
-            false => (figure.analysis)(&results),
+            false => ledger::of_figure(content.suite.name, figure, values),
         },
+        grids: grids.unwrap_or_default(),
         plots: diagrams,
         quotes: quotes.collect(),
         table,
@@ -201,6 +218,36 @@ fn show<'p>(
             .filter(|picture| picture.figure == figure.anchor)
             .collect(),
     })
+}
+
+/// The table of all claims, where the suite has one; written as files too.
+fn ledger(
+    content: &Content<'_>,
+    rows: &[Row],
+    files: Option<&Draft>,
+) -> anyhow::Result<Option<Ledger>> {
+    if content.judged.is_empty() {
+        return Ok(None);
+    }
+    let judged = content.judged.iter();
+    let entries = judged.flat_map(|(suite, figure)| ledger::of_figure(suite, figure, rows));
+    let entries = ledger::published(entries.collect());
+    let mut written = Vec::new();
+    if let Some(draft) = files {
+        let json = format!("{:#}\n", ledger::value(&entries));
+        let table = ledger::table(&entries);
+        for (name, text) in [("json", json), ("md", table.write(Format::Markdown))] {
+            let path = format!("{FIGURES}/claims.{name}");
+            write_whole(draft.file(&path)?, text.as_bytes())?;
+            written.push((if name == "md" { "Markdown" } else { "JSON" }, path));
+        }
+    }
+    Ok(Some(Ledger {
+        tally: ledger::tally(&entries),
+        entries,
+        open: ledger::open(),
+        files: written,
+    }))
 }
 
 /// A quantity of a figure against its axis.
@@ -264,12 +311,9 @@ fn table(figure: &Figure, results: &Results<'_>) -> Table {
     let mut table = Table::new(heading.into_iter().chain(quantities));
     for series in &figure.series {
         for point in &series.points {
-            let x = match &figure.axis.scale {
-                Scale::Names(names) => names.get(point.x as usize).cloned().unwrap_or_default(),
-                Scale::Linear | Scale::Close | Scale::Log if point.along.is_none() => {
-                    format!("{}", point.x)
-                }
-                Scale::Linear | Scale::Close | Scale::Log => or_dash(results.place(point)),
+            let x = match point.along {
+                None => place_name(&figure.axis, point.x),
+                Some(_) => or_dash(results.place(point)),
             };
             let values = figure
                 .quantities

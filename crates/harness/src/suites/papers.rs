@@ -1,15 +1,16 @@
 //! `catoptric bench papers`: the techniques of all four papers side by side, in one table and, scene
-//! by scene, error against time.
+//! by scene, error against time. At its end stand all claims of the papers: the figures of the other
+//! suites that decide them are measured too, in a small size.
 
-use crate::record::technique::properties;
-use crate::show::number::percent;
 use crate::show::plot::Axis;
+use crate::suites::claims::make::{claim, difference, value};
+use crate::suites::claims::{Claim, EVERY, Limit, Noise, Paper, Pick, Place, Shown, Term, of};
 use crate::suites::figure::{Figure, Quantity};
 use crate::suites::paths::{AGREEMENT, ANGLE, FLIP, FRAME_MS};
-use crate::suites::results::Results;
 use crate::suites::series::{Point, Series};
 use crate::suites::shelf;
 use crate::suites::suite::{Asked, Budget, Layout, Suite};
+use crate::suites::{control, cubemap, estalella, ledger, search, tessellation};
 
 /// The suite.
 pub const SUITE: Suite = Suite {
@@ -17,8 +18,9 @@ pub const SUITE: Suite = Suite {
     title: "The four papers side by side",
     why: "Which technique of which paper is exact where, at what cost?",
     figures,
+    judged: Some(judged),
     pictures: None,
-    timing: Budget::Whole(120.0),
+    timing: Budget::Whole(180.0),
     resolution: None,
     layout: Layout::Figures,
 };
@@ -103,27 +105,8 @@ fn table(scenes: &[&str]) -> Figure {
         series: scenes.iter().map(series).collect(),
         quantities: [quantities(), vec![Quantity::log(FRAME_MS)]].concat(),
         quotes: &[],
-        analysis: |results| {
-            results
-                .series()
-                .iter()
-                .filter_map(|one| best(results, one))
-                .collect()
-        },
+        claims: ALL,
     }
-}
-
-fn best(results: &Results<'_>, series: &Series) -> Option<String> {
-    let points = series.points.iter();
-    let points = points.filter(|point| !properties(&point.technique).is_control);
-    let known = points.filter_map(|point| Some((results.value(point, AGREEMENT)?, point)));
-    let (agreement, point) = known.max_by(|a, b| a.0.total_cmp(&b.0))?;
-    Some(format!(
-        "{}: of all but the control, {} has the right object most often, on {} of the mirror pixels.",
-        series.label,
-        point.technique,
-        percent(agreement)
-    ))
 }
 
 fn scatter(anchor: &'static str, scene: &str) -> Figure {
@@ -145,35 +128,143 @@ fn scatter(anchor: &'static str, scene: &str) -> Figure {
         series: TECHNIQUES.iter().map(series).collect(),
         quantities: quantities(),
         quotes: &[],
-        analysis: |results| front(results).into_iter().collect(),
+        claims: &[],
     }
 }
 
-/// Which techniques no other one beats in both time and angle.
-fn front(results: &Results<'_>) -> Option<String> {
-    let series = results.series().iter();
-    let known = series.filter_map(|series| {
-        let point = series.points.first()?;
-        let is_control = properties(&point.technique).is_control;
-        let place = (
-            results.value(point, FRAME_MS)?,
-            results.value(point, ANGLE)?,
-        );
-        (!is_control).then_some((series.label.as_str(), place))
+/// Size of what decides the claims.
+const JUDGED: [u32; 2] = [160, 120];
+
+/// The figures of the other suites under which a paper's claim stands.
+fn judged(scene: Option<&str>) -> Vec<(&'static str, Figure)> {
+    if scene.is_some() {
+        return Vec::new();
+    }
+    let suites = [
+        &search::SUITE,
+        &tessellation::SUITE,
+        &estalella::SUITE,
+        &cubemap::SUITE,
+        &control::SUITE,
+        &SUITE,
+    ];
+    let figures = suites.into_iter().flat_map(|suite| {
+        let figures = (suite.figures)(&Asked::default()).into_iter();
+        figures.map(|figure| (suite.name, figure))
     });
-    let known: Vec<_> = known.collect();
-    let beaten = |(time, angle): (f64, f64)| {
-        let mut others = known.iter().map(|(_, place)| *place);
-        others.any(|(t, a)| t <= time && a <= angle && (t < time || a < angle))
-    };
-    let mut left: Vec<_> = known.iter().filter(|(_, place)| !beaten(*place)).collect();
-    left.sort_by(|a, b| a.1.0.total_cmp(&b.1.0));
-    let names: Vec<&str> = left.iter().map(|(label, _)| *label).collect();
-    (!names.is_empty()).then(|| {
-        format!(
-            "From the fastest to the most exact, no other technique beats in both time and median \
-             angle: {}.",
-            names.join("; ")
-        )
-    })
+    let figures = figures.map(|(suite, figure)| (suite, ledger::pared(&figure)));
+    let mut figures: Vec<_> = figures
+        .filter(|(_, figure)| !figure.series.is_empty())
+        .collect();
+    for (suite, figure) in &mut figures {
+        for point in figure
+            .series
+            .iter_mut()
+            .flat_map(|series| &mut series.points)
+        {
+            point.picture = false;
+            if *suite != SUITE.name {
+                point.resolution = Some(JUDGED);
+            }
+        }
+    }
+    figures
+}
+
+/// In every scene, the technique of that place.
+const fn every(place: usize) -> Pick {
+    of(EVERY, Place::At(place as f64))
+}
+
+const RIGHT: Term = Term::Path(AGREEMENT);
+const ROUNDING: Noise = Noise::Plus(0.001);
+const EXACT: &str = "95 of 100 mirror pixels show the right object.";
+
+const ALL: &[Claim] = &[
+    claim(
+        Paper::Szabo2013,
+        "1.3, 7.2",
+        "The linear search reflects accurately.",
+        value(
+            every(0),
+            RIGHT,
+            Limit::Above(0.95),
+            ROUNDING,
+            Shown::Percent,
+        ),
+        EXACT,
+    ),
+    claim(
+        Paper::SzaboCescg,
+        "5.1, 6",
+        "With adaptive tessellation it reflects accurately without any preparation of the models.",
+        value(
+            every(3),
+            RIGHT,
+            Limit::Above(0.95),
+            ROUNDING,
+            Shown::Percent,
+        ),
+        EXACT,
+    ),
+    claim(
+        Paper::Estalella2005,
+        "8",
+        "The search in reflector cube maps reflects very accurately.",
+        value(
+            every(4),
+            RIGHT,
+            Limit::Above(0.95),
+            ROUNDING,
+            Shown::Percent,
+        ),
+        EXACT,
+    ),
+    claim(
+        Paper::Estalella2005,
+        "8",
+        "Environment maps, even if made in every frame, are too inexact.",
+        difference(every(4), every(7), RIGHT, Limit::Above(0.01), ROUNDING),
+        "the share of right mirror pixels that the search has more: one in a hundred can be told.",
+    ),
+    claim(
+        Paper::Ciz2017,
+        "5",
+        "Cubemap tracing compares with ray tracing.",
+        value(
+            every(9),
+            RIGHT,
+            Limit::Above(0.95),
+            ROUNDING,
+            Shown::Percent,
+        ),
+        EXACT,
+    ),
+    claim(
+        Paper::Ours,
+        "",
+        "Cubemap tracing as corrected here is more exact.",
+        difference(every(10), every(9), RIGHT, Limit::Above(0.0), ROUNDING),
+        "the share of right mirror pixels that the corrected one has more.",
+    ),
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::suites::plan;
+
+    #[test]
+    fn what_decides_the_claims_is_not_all_that_the_suites_measure() {
+        let figures = judged(None).into_iter().map(|(_, figure)| figure);
+        let own = figures_of_the_page().into_iter();
+        let all: Vec<Figure> = own.chain(figures).collect();
+        let jobs = plan::wanted(&all, SUITE.timing);
+        let rows: usize = jobs.iter().map(|job| job.techniques.len()).sum();
+        assert!((200..500).contains(&rows), "{rows}");
+    }
+
+    fn figures_of_the_page() -> Vec<Figure> {
+        figures(&Asked::default())
+    }
 }

@@ -36,3 +36,18 @@ pub const EVALUATIONS: &str = "work.evaluations";
 pub const NODE_TESTS: &str = "work.node_tests";
 pub const SAMPLES: &str = "work.samples";
 pub const STEPS: &str = "work.steps";
+pub const AT_RIM: &str = "regions.rim.angular_error_deg.p50";
+pub const OFF_RIM: &str = "regions.interior.angular_error_deg.p50";
+pub const FAILED: &str = "vertices.failed";
+pub const HOLES: &str = "vertices.hole";
+pub const REFLECTED: &str = "vertices.reflected";
+pub const RECALL: &str = "vertices.recall";
+pub const WORK: &str = "work.total";
+pub const MOVING_STEPS: &str = "temporal.steps";
+pub const WIDEST: &str = "coverage.widest_crack_px";
+pub const UNFINISHED: &str = "triangles.unfinished";
+pub const REFINE_MS: &str = "time_ms.passes.refine";
+/// Width of the picture: not a measurement, but what rules about levels need.
+pub const WIDTH: &str = "resolution.width";
+/// Height of the picture.
+pub const HEIGHT: &str = "resolution.height";

@@ -86,7 +86,7 @@ mod tests {
             }],
             quantities: Vec::new(),
             quotes: &[],
-            analysis: |_| Vec::new(),
+            claims: &[],
         }
     }
 

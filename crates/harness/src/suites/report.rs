@@ -21,6 +21,7 @@ pub const QUICK: Suite = Suite {
             false,
         )
     },
+    judged: None,
     pictures: None,
     // With all else the whole stays within three minutes.
     timing: Budget::EachScene(40.0 / QUICK_SCENES.len() as f64),
@@ -130,6 +131,6 @@ fn figures(scenes: &[String], everywhere: bool) -> Vec<Figure> {
         series: scenes.iter().map(series).collect(),
         quantities: Vec::new(),
         quotes: &[],
-        analysis: |_| Vec::new(),
+        claims: &[],
     }]
 }

@@ -1,50 +1,99 @@
-//! A figure's measurements, to be read by its analysis.
+//! A figure's measurements, as rules and pages read them.
 
 use serde_json::Value;
 
-use crate::record::path::lookup;
+use crate::record::path::{lookup, number};
 use crate::record::{Record, Status};
+use crate::show::number::count;
+use crate::show::plot::{Axis, Scale};
 
+use super::claims::Numbers;
+use super::figure::Figure;
+use super::paths::{HEIGHT, WIDTH};
 use super::series::{Ask, Point, Series};
+
+/// A measured row: its JSON, and what it is looked up by.
+pub struct Row {
+    value: Value,
+    scene: String,
+    technique: String,
+    resolution: [u32; 2],
+    ok: bool,
+}
+
+impl Row {
+    /// A row just measured.
+    pub fn of(row: &Record) -> Self {
+        Self {
+            value: row.to_value(),
+            scene: row.scene.clone(),
+            technique: row.technique.clone(),
+            resolution: row.resolution,
+            ok: row.status == Status::Ok,
+        }
+    }
+
+    /// A row of a file; `None` where what it is looked up by is missing.
+    pub fn read(value: Value) -> Option<Self> {
+        let text = |path: &str| Some(lookup(&value, path)?.as_str()?.to_owned());
+        let side =
+            |place: usize| u32::try_from(value.get("resolution")?.get(place)?.as_u64()?).ok();
+        Some(Self {
+            scene: text("scene")?,
+            technique: text("technique")?,
+            resolution: [side(0)?, side(1)?],
+            ok: text("status")? == "ok",
+            value,
+        })
+    }
+}
 
 /// The rows of one figure.
 pub struct Results<'r> {
     series: &'r [Series],
-    rows: &'r [(Record, Value)],
+    axis: &'r Axis,
+    rows: &'r [Row],
 }
 
 impl<'r> Results<'r> {
-    /// `rows` are all rows of the suite, each with its JSON.
-    pub fn new(series: &'r [Series], rows: &'r [(Record, Value)]) -> Self {
-        Self { series, rows }
+    /// `rows` are all rows of the suite.
+    pub fn new(figure: &'r Figure, rows: &'r [Row]) -> Self {
+        Self {
+            series: &figure.series,
+            axis: &figure.axis,
+            rows,
+        }
     }
 
-    /// All series of the figure.
-    pub fn series(&self) -> &'r [Series] {
-        self.series
+    /// Where among all rows the one of a point stands; `None` where it is not measured (yet).
+    pub fn index(&self, point: &Point) -> Option<usize> {
+        let named = point.canonical();
+        self.rows.iter().position(|row| {
+            let size = point.resolution.is_none_or(|size| size == row.resolution);
+            size && point.is_on(&row.scene)
+                && (row.technique == point.technique || named.as_ref() == Some(&row.technique))
+        })
     }
 
-    /// The row of a point; `None` where it is not measured (yet).
-    pub fn row(&self, point: &Point) -> Option<&'r Record> {
-        self.find(point).map(|(row, _)| row)
+    /// The size of the picture of a point's row.
+    pub fn size(&self, point: &Point) -> Option<[u32; 2]> {
+        Some(self.rows[self.index(point)?].resolution)
     }
 
-    fn find(&self, point: &Point) -> Option<&'r (Record, Value)> {
-        self.rows.iter().find(|(row, _)| point.is_of(row))
-    }
-
-    /// The row of the last measured point of a series.
-    pub fn last(&self, series: &str) -> Option<&'r Record> {
-        let mut all = self.series.iter();
-        let series = all.find(|found| found.label == series)?;
-        series.points.iter().rev().find_map(|point| self.row(point))
+    /// Why a point has no numbers; `None` where it has, or is not measured.
+    pub fn reason(&self, point: &Point) -> Option<&'r str> {
+        lookup(&self.rows[self.index(point)?].value, "reason")?.as_str()
     }
 
     /// A number of a point's row; `None` where it is `null` or not measured.
     pub fn value(&self, point: &Point, path: &str) -> Option<f64> {
-        let (row, value) = self.find(point)?;
-        let value = (row.status == Status::Ok).then_some(value)?;
-        lookup(value, path)?.as_f64()
+        let row = &self.rows[self.index(point)?];
+        let [width, height] = row.resolution.map(f64::from);
+        match path {
+            WIDTH => Some(width),
+            HEIGHT => Some(height),
+            _ => row.ok.then(|| number(&row.value, path)).flatten(),
+        }
     }
 
     /// Where a point stands on the axis; `None` where that is measured and is not known.
@@ -54,127 +103,53 @@ impl<'r> Results<'r> {
             .map_or(Some(point.x), |path| self.value(point, path))
     }
 
-    /// Place on the axis and number of all points of a series that have it.
-    pub fn curve(&self, series: &str, path: &str) -> Vec<(f64, f64)> {
-        let found = self.series.iter().find(|found| found.label == series);
-        let points = found.into_iter().flat_map(|series| &series.points);
-        points
-            .filter_map(|point| Some((self.place(point)?, self.value(point, path)?)))
-            .collect()
-    }
-
-    /// The number of a series at the point that stands at `x`; `None` where that one has none.
-    pub fn at(&self, series: &str, x: f64, path: &str) -> Option<f64> {
-        let series = (self.series.iter()).find(|found| found.label == series)?;
-        let mut points = series.points.iter();
-        let point = points.find(|point| self.place(point) == Some(x))?;
-        self.value(point, path)
-    }
-
     /// Our number for a quotation.
     pub fn answer(&self, ask: &Ask) -> Option<f64> {
         self.at(ask.series, ask.x, ask.path)
     }
 
-    /// How often the one series' number is the other's, at every place where both have it.
-    pub fn ratios(&self, one: &str, other: &str, path: &str) -> Vec<(f64, f64)> {
-        let other = self.curve(other, path);
-        let one = self.curve(one, path).into_iter();
-        one.filter_map(|(x, value)| {
-            let (_, divisor) = other.iter().find(|(place, _)| *place == x)?;
-            (*divisor != 0.0).then_some((x, value / divisor))
-        })
-        .collect()
+    fn points(&self, series: &str) -> &'r [Point] {
+        let found = self.series.iter().find(|found| found.label == series);
+        found.map_or(&[], |series| &series.points)
     }
 }
 
-/// The power by which a curve grows: the slope of the least-squares line through the logarithms.
-/// `None` with fewer than two places or a number that is not positive.
-pub fn power(curve: &[(f64, f64)]) -> Option<f64> {
-    let logs = curve.iter().map(|(x, y)| (x.ln(), y.ln()));
-    let logs: Vec<(f64, f64)> = logs.collect();
-    if logs.iter().any(|(x, y)| !x.is_finite() || !y.is_finite()) {
-        return None;
+/// What a place on an axis is called.
+pub fn place_name(axis: &Axis, x: f64) -> String {
+    match &axis.scale {
+        Scale::Names(names) => names.get(x as usize).cloned().unwrap_or_default(),
+        Scale::Linear | Scale::Close | Scale::Log if x.fract() == 0.0 && x >= 0.0 => {
+            count(x as u64)
+        }
+        Scale::Linear | Scale::Close | Scale::Log => format!("{x}"),
     }
-    let n = logs.len() as f64;
-    let mean = logs
-        .iter()
-        .fold((0.0, 0.0), |sum, (x, y)| (sum.0 + x / n, sum.1 + y / n));
-    let (mut above, mut below) = (0.0, 0.0);
-    for (x, y) in &logs {
-        above += (x - mean.0) * (y - mean.1);
-        below += (x - mean.0) * (x - mean.0);
-    }
-    (below > 0.0).then(|| above / below)
 }
 
-/// The standard error of [`power`]: how far the places scatter about the line. `None` with fewer than
-/// three places.
-pub fn power_error(curve: &[(f64, f64)]) -> Option<f64> {
-    let slope = power(curve)?;
-    let n = curve.len() as f64;
-    let logs = curve.iter().map(|(x, y)| (x.ln(), y.ln()));
-    let sums = logs
-        .clone()
-        .fold((0.0, 0.0), |(a, b), (x, y)| (a + x, b + y));
-    let (mean_x, mean_y) = (sums.0 / n, sums.1 / n);
-    let (mut off, mut spread) = (0.0, 0.0);
-    for (x, y) in logs {
-        let residual = y - mean_y - slope * (x - mean_x);
-        off += residual * residual;
-        spread += (x - mean_x) * (x - mean_x);
-    }
-    (curve.len() > 2).then(|| (off / (n - 2.0) / spread).sqrt())
-}
-
-/// The constant and growing part of a cost: the least-squares line through the values, as its
-/// value at 0 and its slope, each place weighted by the inverse square of its value so that small
-/// and large places count alike. `None` with fewer than two places.
-pub fn line(curve: &[(f64, f64)]) -> Option<(f64, f64)> {
-    let (mut w, mut wx, mut wy, mut wxx, mut wxy) = (0.0, 0.0, 0.0, 0.0, 0.0);
-    for &(x, y) in curve.iter().filter(|(_, y)| *y > 0.0) {
-        let weight = 1.0 / (y * y);
-        w += weight;
-        wx += weight * x;
-        wy += weight * y;
-        wxx += weight * x * x;
-        wxy += weight * x * y;
-    }
-    let below = w * wxx - wx * wx;
-    (below > 0.0).then(|| {
-        let slope = (w * wxy - wx * wy) / below;
-        ((wy - slope * wx) / w, slope)
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn powers_of_exact_curves() {
-        let square: Vec<_> = [1.0, 2.0, 5.0].map(|x: f64| (x, 3.0 * x * x)).to_vec();
-        assert!((power(&square).unwrap() - 2.0).abs() < 1e-12);
-        assert_eq!(power(&square[..1]), None);
-        assert_eq!(power(&[(1.0, 0.0), (2.0, 1.0)]), None);
+impl Numbers for Results<'_> {
+    fn labels(&self) -> Vec<String> {
+        self.series
+            .iter()
+            .map(|series| series.label.clone())
+            .collect()
     }
 
-    #[test]
-    fn a_power_is_as_sure_as_its_places_are_in_line() {
-        let square: Vec<_> = [1.0, 2.0, 5.0].map(|x: f64| (x, 3.0 * x * x)).to_vec();
-        assert!(power_error(&square).unwrap() < 1e-12);
-        assert_eq!(power_error(&square[..2]), None);
-        // In logarithms 0, 1, 2 against 0, 3, 0: slope 0, residuals −1, 2, −1, spread 2.
-        let scattered = [(0.0_f64, 0.0_f64), (1.0, 3.0), (2.0, 0.0)];
-        let scattered = scattered.map(|(x, y)| (x.exp(), y.exp()));
-        assert!((power_error(&scattered).unwrap() - 3.0_f64.sqrt()).abs() < 1e-12);
+    fn places(&self, series: &str) -> Vec<f64> {
+        let points = self.points(series).iter();
+        points.filter_map(|point| self.place(point)).collect()
     }
 
-    #[test]
-    fn lines_through_exact_costs() {
-        let cost: Vec<_> = [100.0, 1e3, 1e5].map(|x: f64| (x, 5.0 + 0.25 * x)).to_vec();
-        let (constant, slope) = line(&cost).unwrap();
-        assert!((constant - 5.0).abs() < 1e-6 && (slope - 0.25).abs() < 1e-9);
-        assert_eq!(line(&cost[..1]), None);
+    fn at(&self, series: &str, x: f64, path: &str) -> Option<f64> {
+        let mut points = self.points(series).iter();
+        let point = points.find(|point| self.place(point) == Some(x))?;
+        self.value(point, path)
+    }
+
+    fn place_name(&self, x: f64) -> String {
+        match &self.axis.scale {
+            Scale::Names(_) => place_name(self.axis, x),
+            Scale::Linear | Scale::Close | Scale::Log => {
+                format!("{} {}", place_name(self.axis, x), self.axis.label)
+            }
+        }
     }
 }

@@ -17,6 +17,7 @@ use crate::run::{Setup, measure};
 use crate::show::{self, print, records};
 use crate::terminal::say;
 
+use super::figure::Figure;
 use super::page::Content;
 use super::suite::{Asked, Layout, Picture, Studio, Suite};
 use super::{page, pictures, plan};
@@ -34,14 +35,25 @@ pub fn run(
     };
     let load = load_options(common);
     let mut figures = (suite.figures)(&Asked { scene, load });
+    let mut judged = suite.judged.map_or_else(Vec::new, |judged| judged(scene));
     if let Some(size) = common.resolution {
         // All is measured in the size asked for, so that is where a figure finds its points.
-        let series = figures.iter_mut().flat_map(|figure| &mut figure.series);
-        for point in series.flat_map(|series| &mut series.points) {
+        let all = figures
+            .iter_mut()
+            .chain(judged.iter_mut().map(|(_, figure)| figure));
+        for point in all
+            .flat_map(|figure| &mut figure.series)
+            .flat_map(|series| &mut series.points)
+        {
             point.resolution = Some(size);
         }
     }
-    let setup = Setup::new(&plan::wanted(&figures, suite.timing.or(seconds)), common)?;
+    let all: Vec<Figure> = figures
+        .iter()
+        .chain(judged.iter().map(|(_, figure)| figure))
+        .cloned()
+        .collect();
+    let setup = Setup::new(&plan::wanted(&all, suite.timing.or(seconds)), common)?;
     let folder = common.output.clone().unwrap_or_else(|| folder(suite));
     refuse_file_name(&folder)?;
     let parts = match suite.layout {
@@ -62,6 +74,7 @@ pub fn run(
                 let content = Content {
                     suite,
                     figures,
+                    judged: &judged,
                     rows,
                     wanted,
                     own: None,
@@ -79,6 +92,7 @@ pub fn run(
                 let content = Content {
                     suite,
                     figures,
+                    judged: &judged,
                     rows: &rows,
                     wanted,
                     own: own.as_deref(),

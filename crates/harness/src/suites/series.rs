@@ -67,13 +67,21 @@ impl Point {
     /// Whether a row holds the measurement of this point. Names may be spelled differently: options in
     /// another order, a scene file by its path.
     pub fn is_of(&self, row: &Record) -> bool {
-        let spec = |name: &str| catoptric_reflect::parse(name).ok();
-        let means =
-            || spec(&self.technique).is_some_and(|asked| spec(&row.technique) == Some(asked));
         let size = self.resolution.is_none_or(|size| size == row.resolution);
+        let means = || self.canonical().as_ref() == Some(&row.technique);
+        size && self.is_on(&row.scene) && (row.technique == self.technique || means())
+    }
+
+    /// Whether a record's scene is this one.
+    pub fn is_on(&self, scene: &str) -> bool {
         let stem = || std::path::Path::new(&self.scene).file_stem();
-        size && (row.scene == self.scene || stem().is_some_and(|stem| stem == row.scene.as_str()))
-            && (row.technique == self.technique || means())
+        scene == self.scene || stem().is_some_and(|stem| stem == scene)
+    }
+
+    /// The technique as records have it; `None` where it is none.
+    pub fn canonical(&self) -> Option<String> {
+        let spec = catoptric_reflect::parse(&self.technique).ok()?;
+        Some(spec.to_string())
     }
 }
 

@@ -19,6 +19,9 @@ pub struct Suite {
     pub why: &'static str,
     /// What is measured.
     pub figures: fn(&Asked<'_>) -> Vec<Figure>,
+    /// Figures of other suites, each with its suite's name, whose claims are judged in a table at the end
+    /// of the page; `None` where there is none. The text is the user's scene.
+    pub judged: Option<Judged>,
     /// Pictures other than those of points; `None` where there are none.
     pub pictures: Option<MakePictures>,
     /// Seconds of timing, where the user does not say.
@@ -65,6 +68,9 @@ pub enum Layout {
     /// A section a scene: pictures and numbers of every technique. Made anew after each scene.
     Scenes,
 }
+
+/// Lists figures of other suites.
+pub type Judged = fn(Option<&str>) -> Vec<(&'static str, Figure)>;
 
 /// Makes pictures of a suite's own kind.
 pub type MakePictures = fn(&Studio<'_>) -> anyhow::Result<Vec<Picture>>;

@@ -4,6 +4,7 @@ mod common;
 mod meshes;
 mod mixed;
 mod motion;
+mod moving;
 mod points;
 mod scenes;
 mod thesis_scenes;

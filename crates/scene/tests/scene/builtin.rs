@@ -135,3 +135,37 @@ fn the_hash_knows_what_a_picture_shows() {
     hashes.dedup();
     assert_eq!(hashes.len(), count);
 }
+
+#[test]
+fn a_family_of_mirrors_has_as_many_as_its_names_say() {
+    for (name, mirrors) in [("mirrors-1", 1), ("mirrors-3", 3), ("mirrors-8", 8)] {
+        let scene = open(name, &LoadOptions::default()).unwrap();
+        assert_eq!(
+            (scene.mirrors.len(), scene.objects.len()),
+            (mirrors, 4),
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn a_family_of_objects_has_one_of_its_template_each() {
+    let whole = open("sphere-table", &LoadOptions::default()).unwrap();
+    for name in ["cloth", "candlestick", "teapot", "apple"] {
+        let scene = open(
+            &format!("sphere-table-only-{name}"),
+            &LoadOptions::default(),
+        )
+        .unwrap();
+        let names: Vec<&str> = scene
+            .objects
+            .iter()
+            .map(|object| object.name.as_str())
+            .collect();
+        assert_eq!(
+            (names, scene.mirrors.len()),
+            (vec![name], whole.mirrors.len())
+        );
+        assert_eq!(scene.camera, whole.camera);
+    }
+}

@@ -1,10 +1,7 @@
 //! What the figures share: sizes, points and quantities.
 
 use crate::suites::figure::Quantity;
-use crate::suites::paths::{
-    AGREEMENT, ANGLE, FRAME_MS, NODE_TESTS, PIXELS, SAMPLES, TRACE_MS, UNRESOLVED,
-};
-use crate::suites::results::Results;
+use crate::suites::paths::{AGREEMENT, ANGLE, FRAME_MS, NODE_TESTS, SAMPLES, UNRESOLVED};
 use crate::suites::series::{Point, Series};
 
 /// Picture size of everything outside the grid: steps of a thousandth of a ray are slow on a
@@ -57,12 +54,4 @@ pub fn by_scene(scenes: &[&str], techniques: &[String], shown: Option<&str>) -> 
             .collect(),
     };
     scenes.iter().map(series).collect()
-}
-
-/// Nanoseconds that tracing takes a mirror pixel; `None` where it is not measured.
-pub fn ns_per_pixel(results: &Results<'_>, point: &Point) -> Option<f64> {
-    let pixels = results
-        .value(point, PIXELS)
-        .filter(|pixels| *pixels > 0.0)?;
-    Some(results.value(point, TRACE_MS)? * 1e6 / pixels)
 }

@@ -55,11 +55,86 @@ pub fn pictures(studio: &Studio<'_>) -> anyhow::Result<Vec<Picture>> {
             alt: format!("Levels of the pyramid of {which} distances, a row a level"),
         })
     };
-    ["least", "greatest"]
-        .into_iter()
-        .enumerate()
-        .map(picture)
-        .collect()
+    let pictures = ["least", "greatest"].into_iter().enumerate().map(picture);
+    let mut pictures = pictures.collect::<anyhow::Result<Vec<_>>>()?;
+    pictures.extend(lanes(studio, &scene)?);
+    Ok(pictures)
+}
+
+/// Levels of the compute version: of each cell 32 parts, by turns 8 by 4 and 4 by 8.
+const LANES: [[u32; 2]; 4] = [[1024, 1024], [256, 128], [32, 32], [8, 4]];
+/// The maps that the compute version is described for.
+const LANES_TECHNIQUE: &str = "cubemap-trace(size=1024,objects=1,stage=compute)";
+/// Pixels a side of a face in its picture.
+const WIDE: usize = 256;
+
+/// Fig. 4.2: the levels that the lanes of the compute version test, of one face.
+fn lanes(studio: &Studio<'_>, scene: &Scene) -> anyhow::Result<Option<Picture>> {
+    let spec = crate::run::load::parse(LANES_TECHNIQUE)?;
+    let Ok(rendered) = crate::run::render::render(&studio.setup.gpu, &spec, scene) else {
+        return Ok(None);
+    };
+    let Some(Answer::DistanceLevels(levels)) = rendered.ask(Question::DistanceLevels)? else {
+        return Ok(None);
+    };
+    let finest = &levels[0];
+    let bounds = [f32::min, f32::max];
+    let cells = LANES.map(|sides| bounds.map(|bound| gathered(finest, sides, bound)));
+    let farthest = finest
+        .ranges
+        .iter()
+        .map(|range| range[0])
+        .fold(0.0, f32::max);
+    let width = LANES.len() * (WIDE + GAP) - GAP;
+    let height = bounds.len() * (WIDE + GAP) - GAP;
+    let value = |x: usize, y: usize| {
+        let (level, column) = (x / (WIDE + GAP), x % (WIDE + GAP));
+        let (bound, line) = (y / (WIDE + GAP), y % (WIDE + GAP));
+        if column >= WIDE || line >= WIDE {
+            return f32::NAN;
+        }
+        let [across, down] = LANES[level].map(|side| side as usize);
+        cells[level][bound][line * down / WIDE * across + column * across / WIDE]
+    };
+    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    let map = Image::from_vec(
+        [width as u32, height as u32],
+        pixels.map(|(x, y)| value(x, y)).collect(),
+    );
+    let path = format!("{FOLDER}/{}.lanes.png", slug(&scene.name));
+    let file = studio.draft.file(&path)?;
+    write_png_rgb8(&colorize(&map, [0.0, farthest], Colormap::Magma), &file)
+        .with_context(|| format!("cannot write {}", file.display()))?;
+    let sides = LANES.map(|[across, down]| format!("{across}×{down}"));
+    Ok(Some(Picture {
+        figure: "stages",
+        path,
+        size: map.size(),
+        caption: format!(
+            "{}: the levels of the compute version on the first face, {} cells, least distances above, greatest \
+             below, dark 0, light {farthest:.1} (Fig. 4.2).",
+            scene.name,
+            sides.join(", ")
+        ),
+        alt: "Four levels of distances, coarser and coarser".to_owned(),
+    }))
+}
+
+/// The first face in so many cells, each with the least or greatest of its texels.
+fn gathered(
+    finest: &DistanceLevel,
+    [across, down]: [u32; 2],
+    bound: fn(f32, f32) -> f32,
+) -> Vec<f32> {
+    let side = finest.side as usize;
+    let (across, down) = (across as usize, down as usize);
+    let mut cells = vec![None; across * down];
+    for (place, range) in finest.ranges[..side * side].iter().enumerate() {
+        let cell = (place / side) * down / side * across + (place % side) * across / side;
+        let least: Option<f32> = cells[cell];
+        cells[cell] = Some(least.map_or(range[0], |least| bound(least, range[0])));
+    }
+    cells.into_iter().flatten().collect()
 }
 
 /// The first map's faces beside each other, the levels below each other, all in one size; NaN in the
@@ -86,6 +161,17 @@ fn arranged(levels: &[&DistanceLevel], bound: usize) -> Image<f32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn cells_gather_the_least_and_the_greatest() {
+        let finest = DistanceLevel {
+            side: 4,
+            ranges: (0..96).map(|texel| [texel as f32; 2]).collect(),
+        };
+        assert_eq!(gathered(&finest, [2, 1], f32::min), [0.0, 2.0]);
+        assert_eq!(gathered(&finest, [2, 1], f32::max), [13.0, 15.0]);
+        assert_eq!(gathered(&finest, [4, 4], f32::max).len(), 16);
+    }
 
     #[test]
     fn faces_stand_side_by_side_and_levels_below_each_other() {

@@ -1,11 +1,14 @@
 //! `catoptric bench cubemap`: cubemap tracing, Číž 2017, chapter 5, and what the thesis owed: the
 //! comparison with the truth for every cell of its table. `--full` measures the whole grid.
 
+mod claims;
 mod data;
 mod grid;
 mod heat;
 mod levels;
 mod options;
+mod published;
+mod results;
 mod skipped;
 mod sweeps;
 mod techniques;
@@ -22,6 +25,7 @@ pub const SUITE: Suite = Suite {
           figure says otherwise: pictures of 160×120, two maps of 256² placed automatically, rays of \
           twice the scene's diagonal, a thousand steps a ray.",
     figures: |asked| figures(asked.scene, grid::DEFAULT),
+    judged: None,
     pictures: Some(pictures),
     timing: Budget::Whole(90.0),
     resolution: None,
@@ -43,11 +47,15 @@ fn pictures(studio: &Studio<'_>) -> anyhow::Result<Vec<Picture>> {
     let mut pictures = heat::pictures(studio)?;
     pictures.extend(skipped::pictures(studio)?);
     pictures.extend(levels::pictures(studio)?);
+    pictures.extend(results::pictures(studio)?);
     Ok(pictures)
 }
 
 fn figures(scene: Option<&str>, grid: grid::Grid) -> Vec<Figure> {
     let mut figures = vec![grid.figure(scene)];
+    if scene.is_none() {
+        figures.extend([published::figure(grid.windows), results::figure()]);
+    }
     let own = scene.map(|scene| [scene]);
     let scenes = own.as_ref().map_or(data::SCENES.as_slice(), |scene| scene);
     figures.extend(options::figures(scenes));

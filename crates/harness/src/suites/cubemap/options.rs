@@ -1,16 +1,16 @@
 //! One option at a time: criterion, sampling, acceleration, stage, what unresolved pixels show.
 
-use crate::show::number::{percent, short};
 use crate::show::plot::Axis;
 use crate::suites::figure::{Figure, Quantity};
-use crate::suites::paths::{AGREEMENT, NODE_TESTS, SAMPLES};
-use crate::suites::results::Results;
+use crate::suites::series::{Point, Series};
 
-use super::data::{by_scene, nodes, quantities};
+use super::claims;
+use super::data::{SIZE, by_scene, nodes, quantities};
 
 pub fn figures(scenes: &[&str]) -> Vec<Figure> {
     vec![
         criteria(scenes),
+        steps(scenes),
         samplings(scenes),
         pyramids(scenes),
         unresolved(scenes),
@@ -43,7 +43,7 @@ pub fn figure(anchor: &'static str, title: &str, after: &'static str, question: 
         series: Vec::new(),
         quantities: Vec::new(),
         quotes: &[],
-        analysis: |_| Vec::new(),
+        claims: &[],
     }
 }
 
@@ -57,16 +57,7 @@ const CRITERIA: [(&str, &str); 5] = [
 
 fn criteria(scenes: &[&str]) -> Figure {
     let figure = Figure {
-        analysis: |results| {
-            compared(results, &CRITERIA, 1, 4, |any, continuous| {
-                format!(
-                    "accepting sign changes only where the map is continuous takes the agreement from \
-                     {} to {}",
-                    percent(any),
-                    percent(continuous)
-                )
-            })
-        },
+        claims: claims::CRITERIA,
         ..figure(
             "criteria",
             "Criteria of intersection",
@@ -79,6 +70,39 @@ fn criteria(scenes: &[&str]) -> Figure {
     values(figure, "criterion", &CRITERIA, scenes)
 }
 
+/// Lengths of a step, as shares of the ray.
+const STEPS: [f64; 5] = [0.0005, 0.001, 0.002, 0.005, 0.01];
+
+/// Both criteria at several lengths of the step.
+fn steps(scenes: &[&str]) -> Figure {
+    let criteria = [
+        ("distance", "criterion=distance"),
+        ("analytic", "criterion=analytic,accept=any"),
+    ];
+    let mut series = Vec::new();
+    for scene in scenes {
+        for (label, options) in criteria {
+            let points = STEPS.map(|step| Point {
+                resolution: Some(SIZE),
+                ..Point::new(step, *scene, cubemap(&format!("{options},step={step}")))
+            });
+            series.push(Series::new(format!("{scene}, {label}"), points));
+        }
+    }
+    Figure {
+        axis: Axis::log("step, as a share of the ray"),
+        series,
+        quantities: quantities(),
+        claims: claims::STEPS,
+        ..figure(
+            "steps",
+            "The length of a step",
+            "Číž 2017, sections 3.4 and 5.1",
+            "Both criteria at even steps of several lengths. The distance that counts as a hit is 1.5 steps.",
+        )
+    }
+}
+
 const SAMPLINGS: [(&str, &str); 3] = [
     ("step", "sampling=step,accept=any"),
     ("angle", "sampling=angle,accept=any"),
@@ -86,12 +110,15 @@ const SAMPLINGS: [(&str, &str); 3] = [
 ];
 
 fn samplings(scenes: &[&str]) -> Figure {
-    let figure = figure(
-        "samplings",
-        "Where a ray is sampled",
-        "Číž 2017, section 3.5",
-        "Even steps, even angles, or each texel once, all with the analytical criterion.",
-    );
+    let figure = Figure {
+        claims: claims::SAMPLINGS,
+        ..figure(
+            "samplings",
+            "Where a ray is sampled",
+            "Číž 2017, section 3.5",
+            "Even steps, even angles, or each texel once, all with the analytical criterion.",
+        )
+    };
     values(figure, "sampling", &SAMPLINGS, scenes)
 }
 
@@ -111,31 +138,7 @@ fn pyramids(scenes: &[&str]) -> Figure {
     let mut quantities = quantities();
     quantities.extend([nodes(), Quantity::linear("work.skips")]);
     let figure = Figure {
-        analysis: |results| {
-            let mut sentences = compared(results, &PYRAMIDS, 0, 1, |off, published| {
-                format!(
-                    "with the published skip test {} of the pixels show the right object, without \
-                     skipping {}",
-                    percent(published),
-                    percent(off)
-                )
-            });
-            for series in results.series() {
-                let value = |x: usize, path| results.value(&series.points[x], path);
-                let (off, sound) = (value(0, SAMPLES), value(2, SAMPLES));
-                if let (Some(off), Some(sound), Some(nodes)) = (off, sound, value(2, NODE_TESTS)) {
-                    sentences.push(format!(
-                        "{}: the sound skip test leaves {} of {} samples a pixel, for looks at {} cells \
-                         of the pyramid.",
-                        series.label,
-                        short(sound),
-                        short(off),
-                        short(nodes)
-                    ));
-                }
-            }
-            sentences
-        },
+        claims: claims::PYRAMIDS,
         ..figure(
             "pyramids",
             "Skipping with a pyramid of distances",
@@ -162,13 +165,16 @@ const UNRESOLVED_AS: [(&str, &str); 6] = [
 ];
 
 fn unresolved(scenes: &[&str]) -> Figure {
-    let figure = figure(
-        "unresolved",
-        "What pixels show that no map resolves",
-        "Číž 2017, Fig. 3.10 and section 3.9",
-        "One map only, so that there are such pixels: a mark, an environment map, the background, the \
+    let figure = Figure {
+        claims: claims::FILLINGS,
+        ..figure(
+            "unresolved",
+            "What pixels show that no map resolves",
+            "Číž 2017, Fig. 3.10 and section 3.9",
+            "One map only, so that there are such pixels: a mark, an environment map, the background, the \
          nearest resolved pixels, the texel that came nearest to a hit, or the ray tracer.",
-    );
+        )
+    };
     values(figure, "filling", &UNRESOLVED_AS, scenes)
 }
 
@@ -181,34 +187,19 @@ const STAGES: [(&str, &str); 3] = [
 fn stages(scenes: &[&str]) -> Figure {
     let mut quantities = quantities();
     quantities.push(nodes());
-    let figure = figure(
-        "stages",
-        "Fragments or compute shaders",
-        "Číž 2017, section 3.7, Alg. 3",
-        "The thesis left the compute version unfinished: 32 lanes a ray that test the cells of a level \
+    let figure = Figure {
+        claims: claims::STAGES,
+        ..figure(
+            "stages",
+            "Fragments or compute shaders",
+            "Číž 2017, section 3.7, Alg. 3",
+            "The thesis left the compute version unfinished: 32 lanes a ray that test the cells of a level \
          together. Samples are distances looked up by any of them; where the lanes of a ray look at \
          the same, it counts once.",
-    );
+        )
+    };
     Figure {
         quantities,
         ..values(figure, "stage", &STAGES, scenes)
     }
-}
-
-/// The agreement of two values of an option on each scene, put into words.
-fn compared(
-    results: &Results<'_>,
-    values: &[(&str, &str)],
-    one: usize,
-    other: usize,
-    words: impl Fn(f64, f64) -> String,
-) -> Vec<String> {
-    debug_assert!(one < values.len() && other < values.len());
-    let series = results.series().iter();
-    let sentences = series.filter_map(|series| {
-        let agreement = |x: usize| results.value(series.points.get(x)?, AGREEMENT);
-        let words = words(agreement(one)?, agreement(other)?);
-        Some(format!("{}: {words}.", series.label))
-    });
-    sentences.collect()
 }

@@ -1,14 +1,13 @@
 //! What the paper leaves open: how much interpolation costs, and the constants of the adaptive
 //! step.
 
-use crate::show::number::short;
 use crate::show::plot::Axis;
+use crate::suites::claims::Claim;
 use crate::suites::figure::{Figure, Quantity};
 use crate::suites::paths::{MEAN_PX, MEDIAN_PX, P95_PX};
-use crate::suites::results::Results;
-use crate::suites::results::power;
 use crate::suites::series::{Point, Series};
 
+use super::claims;
 use super::data::search;
 
 /// A figure for the edge of a cell and one for each constant.
@@ -20,18 +19,21 @@ pub fn figures() -> [Figure; 4] {
             "The length of the first step",
             "step",
             &[0.2, 0.35, 0.5, 0.7, 1.0],
+            claims::FIRST_STEP,
         ),
         constant(
             "shrink",
             "How much a step that is too long is shortened",
             "shrink",
             &[0.3, 0.45, 0.6, 0.75, 0.9],
+            claims::SHRINK,
         ),
         constant(
             "grow",
             "How much a step that is too short is lengthened",
             "grow",
             &[1.0, 1.25, 1.5, 1.75, 2.0],
+            claims::GROW,
         ),
     ]
 }
@@ -62,21 +64,18 @@ fn cells() -> Figure {
             Quantity::log(P95_PX),
         ],
         quotes: &[],
-        analysis: |results| {
-            let power = power(&results.curve("grid", MEDIAN_PX)).map(|power| {
-                format!(
-                    "The median error grows as the edge to the power {}; interpolation that is exact to \
-                     first order gives 2 where cells are small against the mirror and their distance from it.",
-                    short(power)
-                )
-            });
-            power.into_iter().collect()
-        },
+        claims: claims::CELLS,
     }
 }
 
 /// A sweep of a constant of the search that the paper does not give.
-fn constant(anchor: &'static str, title: &str, option: &str, values: &[f64]) -> Figure {
+fn constant(
+    anchor: &'static str,
+    title: &str,
+    option: &str,
+    values: &[f64],
+    claims: &'static [Claim],
+) -> Figure {
     let series = |label: &str, scene: &str| Series {
         label: label.to_owned(),
         points: values
@@ -108,25 +107,6 @@ fn constant(anchor: &'static str, title: &str, option: &str, values: &[f64]) -> 
         ],
         quantities: vec![Quantity::log(MEDIAN_PX), Quantity::log(P95_PX)],
         quotes: &[],
-        analysis: constant_analysis,
+        claims,
     }
-}
-
-fn constant_analysis(results: &Results<'_>) -> Vec<String> {
-    let best = |series: &str, path| {
-        let curve = results.curve(series, path).into_iter();
-        curve.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(x, _)| x)
-    };
-    let sentence = |series: &str| {
-        let (median, tail) = (best(series, MEDIAN_PX)?, best(series, P95_PX)?);
-        Some(format!(
-            "On the {series} the median is best at {}, the tail at {}.",
-            short(median),
-            short(tail)
-        ))
-    };
-    ["sphere", "ellipsoid"]
-        .into_iter()
-        .filter_map(sentence)
-        .collect()
 }

@@ -1,16 +1,15 @@
 //! Fig. 6, 7 and 8: a kitchen by several methods, by grids of several densities, and with several
 //! numbers of iterations.
 
-use crate::show::number::short;
 use crate::show::plot::Axis;
 use crate::suites::figure::{Figure, Quantity, Quote};
 use crate::suites::paths::{
     AGREEMENT, EVALUATIONS, EXTRA, FLIP, FRAME_MS, MEAN_PX, MEDIAN_PX, MISSING, P95_PX, SEARCH_MS,
     SEARCHED,
 };
-use crate::suites::results::Results;
 use crate::suites::series::{Ask, Point, Series};
 
+use super::claims;
 use super::data::{search, with_grid};
 
 const KITCHEN: &str = "kitchen";
@@ -88,48 +87,8 @@ fn methods(scene: &str) -> Figure {
                 quote("10 % grid", "10 frames a second: 100 ms", "pictures", 1.0),
             ]
         },
-        analysis: methods_analysis,
+        claims: claims::METHODS,
     }
-}
-
-fn methods_analysis(results: &Results<'_>) -> Vec<String> {
-    let at = |x, path| results.at("pictures", x, path);
-    let mut sentences = Vec::new();
-    if let (Some(all), Some(grid)) = (at(0.0, FRAME_MS), at(1.0, FRAME_MS)) {
-        sentences.push(format!(
-            "A frame takes {} of the time with the grid; in the paper 0.13, where searching every vertex \
-             was nearly all of a frame.",
-            short(grid / all)
-        ));
-    }
-    if let (Some(all), Some(grid), Some(frame)) =
-        (at(0.0, SEARCH_MS), at(1.0, SEARCH_MS), at(0.0, FRAME_MS))
-    {
-        sentences.push(format!(
-            "Of a frame with every vertex searched the search passes are {} % here. With the grid they take \
-             {} of their time, for {} of the searches.",
-            short(100.0 * all / frame),
-            short(grid / all),
-            match (at(0.0, SEARCHED), at(1.0, SEARCHED)) {
-                (Some(all), Some(grid)) => short(grid / all),
-                _ => "a part".to_owned(),
-            }
-        ));
-    }
-    if let (Some(all), Some(grid)) = (at(0.0, AGREEMENT), at(1.0, AGREEMENT)) {
-        let winner = if grid > all {
-            "the grid"
-        } else {
-            "all vertices"
-        };
-        sentences.push(format!(
-            "More mirror pixels show the right object with {winner}: {} % of all with every vertex \
-             searched, {} % with the grid.",
-            short(100.0 * all),
-            short(100.0 * grid)
-        ));
-    }
-    sentences
 }
 
 /// The paper's densities in per cent.
@@ -169,46 +128,8 @@ fn density(scene: &str) -> Figure {
             quote("9.6 %", "10.1 frames a second: 99 ms", "9 steps", 9.6),
             quote("14.3 %", "8.3 frames a second: 120 ms", "9 steps", 14.3),
         ] },
-        analysis: density_analysis,
+        claims: claims::DENSITY,
     }
-}
-
-fn density_analysis(results: &Results<'_>) -> Vec<String> {
-    let at = |x, path| results.at("25 steps", x, path);
-    let mut sentences = Vec::new();
-    for series in ["9 steps", "25 steps"] {
-        let at = |x, path| results.at(series, x, path);
-        let times = [at(4.1, FRAME_MS), at(14.3, FRAME_MS)];
-        let between = [at(4.1, "time_ms.frame.p95"), at(14.3, "time_ms.frame.p5")];
-        let ([Some(sparse), Some(dense)], [Some(slowest), Some(fastest)]) = (times, between) else {
-            continue;
-        };
-        let ratio = match slowest < fastest {
-            true => format!("takes {} times as long", short(dense / sparse)),
-            false => "takes no longer than the times scatter".to_owned(),
-        };
-        sentences.push(format!(
-            "From 4.1 to 14.3 % a frame of {series} {ratio} (in the paper 2.0 times as long)."
-        ));
-    }
-    if let (Some(tenth), Some(all)) = (at(9.6, AGREEMENT), at(100.0, AGREEMENT)) {
-        let lost = 100.0 * (all - tenth);
-        let claim = if lost < 1.0 { "holds" } else { "does not hold" };
-        sentences.push(format!(
-            "With searches that have settled, 9.6 % of the vertices show the wrong object at {} % more of the \
-             mirror pixels than all of them do: that a tenth cannot be told from all {claim} here, if one \
-             pixel in a hundred is what can be told.",
-            short(lost)
-        ));
-    }
-    if let (Some(tenth), Some(all)) = (at(9.6, MEAN_PX), at(100.0, MEAN_PX)) {
-        sentences.push(format!(
-            "The mean offset of a vertex is {} px with that grid and {} px without.",
-            short(tenth),
-            short(all)
-        ));
-    }
-    sentences
 }
 
 /// Fig. 8: numbers of iterations.
@@ -249,39 +170,6 @@ fn iterations(scene: Option<&str>) -> Figure {
             Quantity::linear(SEARCH_MS).called("search passes (ms)"),
         ],
         quotes: &[],
-        analysis: iterations_analysis,
+        claims: claims::ITERATIONS,
     }
-}
-
-fn iterations_analysis(results: &Results<'_>) -> Vec<String> {
-    let mut sentences = Vec::new();
-    for series in ["sphere", "ellipsoid"] {
-        let at = |x| results.at(series, x, MEDIAN_PX);
-        if let (Some(three), Some(five), Some(seven), Some(nine)) =
-            (at(3.0), at(5.0), at(7.0), at(9.0))
-        {
-            sentences.push(format!(
-                "Median offsets on the {series} after 3, 5, 7 and 9 steps: {}, {}, {} and {} px; two steps \
-                 divide the error by {}.",
-                short(three),
-                short(five),
-                short(seven),
-                short(nine),
-                short((three / nine).cbrt())
-            ));
-        }
-    }
-    let right = |x| results.at("kitchen", x, AGREEMENT);
-    if let (Some(nine), Some(more)) = (right(9.0), right(25.0)) {
-        let gain = 100.0 * (more - nine);
-        let claim = if gain < 1.0 { "holds" } else { "does not hold" };
-        let change = if gain < 0.0 { "fewer" } else { "more" };
-        sentences.push(format!(
-            "With 25 steps in place of 9 the right object is seen on {} % {change} of the mirror pixels of \
-             the kitchen: that more than nine bring nothing to see {claim} here, if one pixel in a hundred is \
-             to be seen.",
-            short(gain.abs())
-        ));
-    }
-    sentences
 }

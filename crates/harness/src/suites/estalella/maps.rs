@@ -1,11 +1,11 @@
 //! What the reflector cube maps are made from, and how fine they are.
 
-use crate::show::number::short;
 use crate::show::plot::Axis;
 use crate::suites::figure::{Figure, Quantity};
 use crate::suites::paths::{MEDIAN_PX, P95_PX};
-use crate::suites::results::{Results, power};
 use crate::suites::series::{Point, Series};
+
+use super::claims;
 
 /// Steps with which what is left of the error is the maps'.
 const SETTLED: u32 = 40;
@@ -65,44 +65,14 @@ fn figure(
         question: question.to_owned(),
         axis: Axis::log(unit),
         series: vec![
-            series("sphere", "prototype-sphere", SETTLED),
-            series("ellipsoid", "prototype-ellipsoid", SETTLED),
+            series("sphere, settled", "prototype-sphere", SETTLED),
+            series("ellipsoid, settled", "prototype-ellipsoid", SETTLED),
             series("ellipsoid, 9 steps", "prototype-ellipsoid", PAPER),
         ],
         quantities: vec![Quantity::log(MEDIAN_PX), Quantity::log(P95_PX)],
         quotes: &[],
-        analysis: sweep_analysis,
+        claims: claims::MAPS,
     }
-}
-
-fn sweep_analysis(results: &Results<'_>) -> Vec<String> {
-    let mut sentences = Vec::new();
-    for series in ["sphere", "ellipsoid"] {
-        if let Some(power) = power(&results.curve(series, MEDIAN_PX)) {
-            sentences.push(format!(
-                "On the {series} the median error goes with the number to the power {}; linear \
-                 interpolation of a smooth surface gives -2.",
-                short(power)
-            ));
-        }
-    }
-    let nine = |x| results.at("ellipsoid, 9 steps", x, MEDIAN_PX);
-    let settled = results.curve("ellipsoid", MEDIAN_PX);
-    let decided = |(x, all): &&(f64, f64)| nine(*x).is_some_and(|nine| *all < 0.5 * nine);
-    if settled.is_empty() {
-        return sentences;
-    }
-    sentences.push(match settled.iter().find(decided) {
-        Some((x, _)) => format!(
-            "From {} on, the maps err by less than half of what nine steps leave on the ellipsoid: the \
-             steps decide, not the maps.",
-            short(*x)
-        ),
-        None => "At no number here do the maps err by less than half of what nine steps leave on the \
-                 ellipsoid: the maps decide, not the steps."
-            .to_owned(),
-    });
-    sentences
 }
 
 /// The two projections of the bisector, by the number of steps.
@@ -135,26 +105,6 @@ fn projections() -> Figure {
         ],
         quantities: vec![Quantity::log(MEDIAN_PX), Quantity::log(P95_PX)],
         quotes: &[],
-        analysis: projection_analysis,
+        claims: claims::PROJECTION,
     }
-}
-
-fn projection_analysis(results: &Results<'_>) -> Vec<String> {
-    let sentence = |mirror: &str| {
-        let at = |which: &str, path| results.at(&format!("{mirror}, {which}"), 9.0, path);
-        let (published, ours) = (at("published", MEDIAN_PX)?, at("ours", MEDIAN_PX)?);
-        let (tail, our_tail) = (at("published", P95_PX)?, at("ours", P95_PX)?);
-        Some(format!(
-            "After nine steps on the {mirror} the published projection leaves {} px in the median and {} px \
-             at the 95th percentile, ours {} and {} px.",
-            short(published),
-            short(tail),
-            short(ours),
-            short(our_tail)
-        ))
-    };
-    ["sphere", "ellipsoid"]
-        .into_iter()
-        .filter_map(sentence)
-        .collect()
 }

@@ -6,6 +6,7 @@
 //! are made from and how fine they are ([`maps`]); hidden vertices ([`silhouette`]); steadiness over a camera path ([`steadiness`]). Fig. 4 and 5 are
 //! pictures of what the search does ([`pictures`]).
 
+mod claims;
 mod constants;
 mod data;
 mod kitchen;
@@ -24,6 +25,7 @@ pub const SUITE: Suite = Suite {
     why: "How exact is a search of a fixed number of steps in maps of the mirror, how many vertices \
           must be searched, and what becomes of those that the mirror hides?",
     figures,
+    judged: None,
     pictures: Some(pictures::make),
     timing: Budget::Whole(90.0),
     resolution: None,

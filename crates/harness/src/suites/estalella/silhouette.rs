@@ -1,11 +1,11 @@
 //! Hidden vertices: what becomes of triangles that the mirror hides in part.
 
-use crate::show::number::short;
 use crate::show::plot::Axis;
 use crate::suites::figure::{Figure, Quantity};
 use crate::suites::paths::{AGREEMENT, EXTRA, MISSING};
-use crate::suites::results::Results;
 use crate::suites::series::{Point, Series};
+
+use super::claims;
 
 /// Dropped or continued.
 pub fn figure() -> Figure {
@@ -44,26 +44,6 @@ pub fn figure() -> Figure {
             Quantity::linear(AGREEMENT),
         ],
         quotes: &[],
-        analysis,
+        claims: claims::SILHOUETTE,
     }
-}
-
-fn analysis(results: &Results<'_>) -> Vec<String> {
-    let sentence = |series: &str| {
-        let at = |x, path| results.at(series, x, path).map(|share| 100.0 * share);
-        Some(format!(
-            "“{series}”: missing falls from {} % of the mirror pixels to {} %, and {} % show an object too \
-             many instead of {} %.",
-            short(at(0.0, MISSING)?),
-            short(at(1.0, MISSING)?),
-            short(at(1.0, EXTRA)?),
-            short(at(0.0, EXTRA)?)
-        ))
-    };
-    let all = [
-        "reflector cube maps",
-        "reflector cube maps, 25 steps",
-        "linear",
-    ];
-    all.into_iter().filter_map(sentence).collect()
 }

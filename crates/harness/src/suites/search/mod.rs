@@ -9,15 +9,16 @@
 
 mod claims;
 mod data;
+mod more;
 mod pictures;
 
 use crate::show::plot::Axis;
+use crate::suites::claims::Claim;
 use crate::suites::figure::{Figure, Quantity, Quote};
 use crate::suites::paths::{
     EVALUATIONS, FRAME_MS, JITTER_MAX, JITTER_MEAN, JUMPS, MEAN_PX, MOVING_MS, NODE_TESTS, P95_PX,
     SEARCH_MS, STEPS, STILL_MS,
 };
-use crate::suites::results::Results;
 use crate::suites::series::{Point, Series};
 use crate::suites::shelf::CONTROL;
 use crate::suites::suite::{Asked, Budget, Layout, Suite};
@@ -32,32 +33,30 @@ pub const SUITE: Suite = Suite {
           with the vertices, and how exact and steady are the answers? The comparison of the thesis \
           that proposed both searches, repeated.",
     figures,
+    judged: None,
     pictures: Some(pictures::make),
     timing: Budget::Whole(110.0),
     resolution: None,
     layout: Layout::Figures,
 };
 
-/// What came out, in sentences.
-type Analysis = fn(&Results<'_>) -> Vec<String>;
-
 fn figures(asked: &Asked<'_>) -> Vec<Figure> {
     let scene = asked.scene;
     if let Some(scene) = scene {
         return vec![
-            objects(&[(scene, scene)], &[], claims::scene),
+            objects(&[(scene, scene)], &[], claims::SCENE),
             motion(&[(scene, scene)]),
         ];
     }
-    vec![
-        objects(&CASES, &QUOTES, claims::objects),
+    let mut figures = vec![
+        objects(&CASES, &QUOTES, claims::OBJECTS),
         growth(
             "vertices",
             "Cost against the number of vertices",
             "Szabo 2013, Fig. 6.1",
             "A square before a mirror sphere, cut finer and finer, no vertex hidden; the mirror is a part of the picture.",
             "sphere-grid-",
-            claims::general_view,
+            claims::GENERAL_VIEW,
         ),
         growth(
             "vertices-full",
@@ -65,11 +64,13 @@ fn figures(asked: &Asked<'_>) -> Vec<Figure> {
             "Szabo 2013, Fig. 6.2",
             "Every pixel is a mirror pixel and nearly every one shows the square, so that walks lead everywhere.",
             "sphere-grid-full-",
-            claims::full_view,
+            claims::FULL_VIEW,
         ),
         exactness(),
         motion(&MOVING),
-    ]
+    ];
+    figures.extend(more::figures());
+    figures
 }
 
 /// Every search on a few scenes.
@@ -102,7 +103,7 @@ fn control(scenes: &[(&str, &str)]) -> Series {
 }
 
 /// Fig. 4.3.
-fn objects(scenes: &[(&str, &str)], quotes: &'static [Quote], analysis: Analysis) -> Figure {
+fn objects(scenes: &[(&str, &str)], quotes: &'static [Quote], claims: &'static [Claim]) -> Figure {
     Figure {
         anchor: "objects",
         title: "Both searches, with and without repairs".to_owned(),
@@ -118,7 +119,7 @@ fn objects(scenes: &[(&str, &str)], quotes: &'static [Quote], analysis: Analysis
             .collect(),
         quantities: quantities(Quantity::linear),
         quotes,
-        analysis,
+        claims,
     }
 }
 
@@ -129,7 +130,7 @@ fn growth(
     after: &'static str,
     question: &str,
     family: &str,
-    analysis: Analysis,
+    claims: &'static [Claim],
 ) -> Figure {
     let series = |(label, technique): &(&str, &str)| Series {
         label: (*label).to_owned(),
@@ -149,7 +150,7 @@ fn growth(
         series: SEARCHES.iter().map(series).collect(),
         quantities: quantities(Quantity::log),
         quotes: &[],
-        analysis,
+        claims,
     }
 }
 
@@ -191,10 +192,11 @@ fn exactness() -> Figure {
             Quantity::linear("vertices.offset_share.over_2"),
             Quantity::linear("vertices.failed"),
             Quantity::linear("vertices.hole"),
+            Quantity::linear("vertices.recall"),
             Quantity::linear(NODE_TESTS).called("node tests per vertex"),
         ],
         quotes: &[],
-        analysis: claims::exactness,
+        claims: claims::EXACTNESS,
     }
 }
 
@@ -224,6 +226,6 @@ fn motion(scenes: &[(&str, &str)]) -> Figure {
             Quantity::linear("temporal.steps").called("steps per vertex, from the second frame"),
         ],
         quotes: &[],
-        analysis: claims::motion,
+        claims: claims::MOTION,
     }
 }

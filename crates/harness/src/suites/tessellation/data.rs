@@ -1,9 +1,7 @@
 //! What the figures share: scenes, techniques, numbers of the record, and what is said of them.
 
-use crate::show::number::{count, short};
 use crate::suites::figure::{Guide, Quantity};
 use crate::suites::paths::{AGREEMENT, ANGLE, EDGES, FLOOR};
-use crate::suites::results::Results;
 use crate::suites::series::{Point, Series};
 
 pub const WHOLE_PIXELS: Guide = Guide {
@@ -69,27 +67,4 @@ pub fn accuracy() -> Vec<Quantity> {
 
 pub fn quantities(first: impl IntoIterator<Item = Quantity>) -> Vec<Quantity> {
     first.into_iter().chain(accuracy()).collect()
-}
-
-/// What became of a paper's claim.
-pub fn verdict(holds: bool) -> &'static str {
-    if holds {
-        "holds here"
-    } else {
-        "does not hold here"
-    }
-}
-
-/// The share of full's triangles that adaptive does not make at the same limit.
-pub fn spared(results: &Results<'_>) -> Option<String> {
-    let (adaptive, full) = (results.last(ADAPTIVE)?, results.last(FULL)?);
-    let (adaptive, full) = (adaptive.triangles.as_ref()?, full.triangles.as_ref()?);
-    let limit = adaptive.by_level.len() - 1;
-    Some(format!(
-        "Allowed {limit} levels at a threshold of {THRESHOLD}, adaptive draws {} triangles where full draws \
-         {}: {} % are spared.",
-        count(adaptive.drawn),
-        count(full.drawn),
-        short(100.0 * (1.0 - adaptive.drawn as f64 / full.drawn as f64))
-    ))
 }

@@ -1,19 +1,18 @@
 //! A mirror of flat facets, of which CESCG shows a picture.
 
-use crate::show::number::{percent, short};
 use crate::show::plot::Axis;
 use crate::suites::figure::{Figure, Quantity, Quote};
-use crate::suites::paths::{AGREEMENT, ANGLE, FRAME_MS};
-use crate::suites::results::Results;
+use crate::suites::paths::{AGREEMENT, FRAME_MS};
 use crate::suites::series::{Ask, Point, Series};
 
+use super::claims;
 use super::data::{BY_EYE, NONE, THRESHOLD, adaptive, full, quantities};
 
 /// The scene's fine floor, split twice, is 180 000 triangles.
 const SIZE: [u32; 2] = [320, 240];
 const LEVEL: u32 = 2;
 
-const FOUR: &str = "linear search";
+pub const FOUR: &str = "linear search";
 const EIGHT: &str = "with eight neighbours";
 
 /// CESCG Fig. 10b.
@@ -56,27 +55,6 @@ pub fn facets(scene: &str) -> Figure {
                 unit: "of the mirror pixels right",
             }),
         }] },
-        analysis,
+        claims: claims::FACETS,
     }
-}
-
-fn analysis(results: &Results<'_>) -> Vec<String> {
-    let sentence = |label: &str| {
-        let at = |x, path| results.at(label, x, path);
-        let (plain, split) = (at(0.0, AGREEMENT)?, at(1.0, AGREEMENT)?);
-        Some(format!(
-            "{label}: the right object at {} of the mirror pixels without tessellation, at {} with \
-             every triangle split {LEVEL} times; the median angular error goes from {}° to {}°. Splitting \
-             {}.",
-            percent(plain),
-            percent(split),
-            short(at(0.0, ANGLE)?),
-            short(at(1.0, ANGLE)?),
-            match split - plain > 0.01 {
-                true => "helps, by more than one pixel in a hundred",
-                false => "does not help: what is wrong is not between the corners but at them",
-            }
-        ))
-    };
-    [FOUR, EIGHT].into_iter().filter_map(sentence).collect()
 }

@@ -3,11 +3,14 @@
 //!
 //! What the papers show as pictures and times stands here beside what they could not measure:
 //! error against a ray-traced truth, so that "almost no visible difference" becomes a number.
-//! The thesis' figures are in `square`, those of the other paper in `table` and `facets`.
+//! The thesis' figures are in `square`, those of the other paper in `table` and `facets`, and what
+//! both say without a figure in `more`.
 
+mod claims;
 mod data;
 mod facets;
 mod geometry;
+mod more;
 mod square;
 mod table;
 
@@ -24,6 +27,7 @@ pub const SUITE: Suite = Suite {
           far must triangles be split, what does it cost, and what does splitting only where an \
           error asks for it save?",
     figures,
+    judged: None,
     pictures: Some(geometry::make),
     timing: Budget::Whole(90.0),
     resolution: None,
@@ -34,7 +38,7 @@ fn figures(asked: &Asked<'_>) -> Vec<Figure> {
     let scene = asked.scene;
     let square = scene.unwrap_or(SQUARE);
     let table = table::Place::of(scene);
-    vec![
+    let mut figures = vec![
         square::straight(square),
         square::wireframes(square),
         square::by_level(square),
@@ -44,5 +48,7 @@ fn figures(asked: &Asked<'_>) -> Vec<Figure> {
         table::thresholds(&table),
         table::counts(&table),
         facets::facets(scene.unwrap_or(FACETS)),
-    ]
+    ];
+    figures.extend(more::figures(scene));
+    figures
 }

@@ -1,19 +1,15 @@
 //! CESCG's figures: a scene of coarse and of fine models.
 
-use crate::show::number::{count, short};
 use crate::show::plot::Axis;
 use crate::suites::figure::{Figure, Quantity, Quote};
-use crate::suites::paths::{
-    AGREEMENT, ANGLE, CRACK_PIXELS, DRAWN, EDGES, FLOOR, FRAME_MS, SEARCHED,
-};
-use crate::suites::results::Results;
+use crate::suites::paths::{AGREEMENT, ANGLE, CRACK_PIXELS, DRAWN, EDGES, FRAME_MS, SEARCHED};
 use crate::suites::series::{Ask, Point, Series};
 
+use super::claims;
 use super::data::{
-    ADAPTIVE, BY_EYE, FULL, NONE, PAPERS, TABLE, THRESHOLD, WHOLE_PIXELS, adaptive, full,
-    quantities, spared, three_modes, verdict,
+    ADAPTIVE, BY_EYE, NONE, PAPERS, TABLE, THRESHOLD, WHOLE_PIXELS, adaptive, full, quantities,
+    three_modes,
 };
-use super::square::floor;
 
 /// The size at which full tessellation to level 4 (2.5 million triangles) fits the suite's time.
 const SIZE: [u32; 2] = [320, 240];
@@ -38,7 +34,7 @@ impl Place {
         }
     }
 
-    fn point(&self, x: f64, technique: impl Into<String>) -> Point {
+    pub fn point(&self, x: f64, technique: impl Into<String>) -> Point {
         Point {
             resolution: self.size,
             ..Point::new(x, self.scene.clone(), technique)
@@ -81,7 +77,7 @@ pub fn coarse_and_fine(place: &Place) -> Figure {
                 },
             ]
         },
-        analysis: table_analysis,
+        claims: claims::TABLE,
     }
 }
 
@@ -93,44 +89,6 @@ const fn right(series: &'static str, x: f64) -> Ask {
         path: AGREEMENT,
         unit: "of the mirror pixels right",
     }
-}
-
-fn table_analysis(results: &Results<'_>) -> Vec<String> {
-    let at = |x, path| results.at(SEARCH, x, path);
-    let mut sentences = Vec::new();
-    if let (Some(plain), Some(some), Some(all)) =
-        (at(0.0, AGREEMENT), at(1.0, AGREEMENT), at(2.0, AGREEMENT))
-    {
-        sentences.push(format!(
-            "The right object is shown at {} % of the mirror pixels without tessellation, {} % with adaptive \
-             and {} % with full tessellation: that the two look alike {}, if one pixel in a hundred \
-             is what can be told.",
-            short(100.0 * plain),
-            short(100.0 * some),
-            short(100.0 * all),
-            verdict(all - some < 0.01)
-        ));
-    }
-    let points = results.series().iter().flat_map(|series| &series.points);
-    let rows: Vec<_> = points.filter_map(|point| results.row(point)).collect();
-    if let [_, adaptive, _] = rows[..]
-        && let Some(triangles) = &adaptive.triangles
-    {
-        let whole = triangles.by_level[0] as f64 / triangles.input as f64;
-        sentences.push(format!(
-            "Of the scene's {} triangles adaptive leaves {} % whole: that fine models are left alone {}.",
-            count(triangles.input),
-            short(100.0 * whole),
-            verdict(whole > 0.9)
-        ));
-    }
-    if let (Some(some), Some(all)) = (at(1.0, FRAME_MS), at(2.0, FRAME_MS)) {
-        sentences.push(format!(
-            "Full takes {} times adaptive's time.",
-            short(all / some)
-        ));
-    }
-    sentences
 }
 
 /// CESCG Fig. 8, from none to full.
@@ -191,52 +149,8 @@ pub fn thresholds(place: &Place) -> Figure {
                 },
             ]
         },
-        analysis: threshold_analysis,
+        claims: claims::THRESHOLDS,
     }
-}
-
-fn threshold_analysis(results: &Results<'_>) -> Vec<String> {
-    let at = |threshold: &str, path: &str| {
-        let x = THRESHOLDS.iter().position(|other| *other == threshold)? as f64;
-        let curve = results.curve(ADAPTIVE, path);
-        let found = curve.iter().find(|(other, _)| *other == x);
-        found.map(|(_, value)| *value)
-    };
-    let mut sentences = Vec::new();
-    let right = |threshold| at(threshold, AGREEMENT);
-    if let (Some(none), Some(coarse), Some(middle), Some(fine)) =
-        (right("1"), right("0.1"), right("0.01"), right("0"))
-    {
-        let lost = |share: f64| 100.0 * (fine - share);
-        let torn = at("0.01", CRACK_PIXELS).unwrap_or(0.0);
-        sentences.push(format!(
-            "Full tessellation shows the right object at {} % of the mirror pixels, none at {} %. A threshold \
-             of 0.1 loses {} % against full: that it is too high {}. One of 0.01 loses {} % and leaves {} pixels \
-             of cracks: that it is perfectly acceptable {}, if cracks and one pixel in a hundred are what \
-             can be told.",
-            short(100.0 * fine),
-            short(100.0 * none),
-            short(lost(coarse)),
-            verdict(lost(coarse) >= 1.0),
-            short(lost(middle)),
-            count(torn as u64),
-            verdict(lost(middle) < 1.0 && torn == 0.0)
-        ));
-    }
-    if let (Some(some), Some(all)) = (at("0.01", ANGLE), at("0", ANGLE)) {
-        sentences.push(format!(
-            "The median angular error is {}° at 0.01 and {}° at 0.",
-            short(some),
-            short(all)
-        ));
-    }
-    if let (Some(some), Some(all)) = (at("0.01", FRAME_MS), at("0", FRAME_MS)) {
-        sentences.push(format!(
-            "A threshold of 0 takes {} times the time of 0.01.",
-            short(all / some)
-        ));
-    }
-    sentences
 }
 
 /// CESCG Fig. 9.
@@ -272,29 +186,6 @@ pub fn counts(place: &Place) -> Figure {
                 }),
             }]
         },
-        analysis: count_analysis,
+        claims: claims::COUNTS,
     }
-}
-
-fn count_analysis(results: &Results<'_>) -> Vec<String> {
-    let mut sentences: Vec<String> = spared(results).into_iter().collect();
-    let last = f64::from(LEVELS);
-    let at = |series, path| results.at(series, last, path);
-    sentences.extend(floor(&results.curve(FULL, ANGLE), at(FULL, FLOOR)));
-    if let (Some(all), Some(some)) = (at(FULL, SEARCHED), at(ADAPTIVE, SEARCHED)) {
-        sentences.push(format!(
-            "Full searches {} points, adaptive {}: that adaptive needs fewer {}.",
-            count(all as u64),
-            count(some as u64),
-            verdict(some < all)
-        ));
-    }
-    if let (Some(all), Some(some)) = (at(FULL, EDGES), at(ADAPTIVE, EDGES)) {
-        sentences.push(format!(
-            "Edges then lie {} px on average from the truth with full and {} px with adaptive tessellation.",
-            short(all),
-            short(some)
-        ));
-    }
-    sentences
 }

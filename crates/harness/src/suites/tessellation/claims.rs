@@ -1,0 +1,665 @@
+//! What both papers say about splitting the reflected triangles.
+
+use crate::suites::claims::make::{claim, difference, greatest_step, pixels, ratio, value};
+use crate::suites::claims::{
+    Case, Claim, Limit, Measure, Noise, Numbers, Paper, Pick, Place, Rule, Shown, Term, Which, at,
+    first, last, of,
+};
+use crate::suites::paths::{
+    AGREEMENT, ANGLE, CRACK_PIXELS, DRAWN, EDGES, FLIP, FLOOR, FRAME_MS, JUNCTIONS, MOVING_MS,
+    REFINE_MS, SEARCHED, STILL_MS, UNFINISHED, WIDEST,
+};
+
+use super::data::{ADAPTIVE, FULL, NONE};
+use super::facets::FOUR;
+use super::more::{
+    COARSE, ELLIPSOID, FINE, HIERARCHY_ADAPTIVE, HIERARCHY_FULL, LARGE_MIRROR, MOTION,
+    SMALL_MIRROR, SPHERE, THOUSANDTH,
+};
+use super::square::{HIDDEN, SEARCH, TO_FIVE};
+
+const T13: Paper = Paper::Szabo2013;
+const C13: Paper = Paper::SzaboCescg;
+
+const RIGHT: Term = Term::Path(AGREEMENT);
+const OFF: Term = Term::Path(EDGES);
+const FRAME: Term = Term::Path(FRAME_MS);
+const TRIANGLES: Term = Term::Path(DRAWN);
+const SEARCHES: Term = Term::Path(SEARCHED);
+const GROWN: Term = Term::Quotient(DRAWN, "triangles.in");
+/// Gaps of any width: wide ones count as holes.
+const GAPS: Term = Term::Sum(&[CRACK_PIXELS, "coverage.holes"]);
+const MOVING: Term = Term::Quotient(MOVING_MS, STILL_MS);
+
+/// A pixel in a thousand may round either way.
+const ROUNDING: Noise = Noise::Plus(0.001);
+const EDGE_NOISE: Noise = Noise::Plus(0.05);
+const HUNDREDTH: &str =
+    "one mirror pixel in a hundred is what can be told; one in a thousand may round either way.";
+const HALF: &str = "half a pixel at the edges is what can be told.";
+const FASTER: &str = "below 1 it is faster; what the medians' intervals leave open is undecided.";
+const COUNTED: &str = "counted exactly.";
+
+/// What is alike shows as many right pixels: the first less the second.
+const fn alike(one: Pick, other: Pick) -> Rule {
+    difference(one, other, RIGHT, Limit::Between(-0.01, 0.01), ROUNDING)
+}
+
+/// What is alike has its edges in the same places.
+const fn edges_alike(one: Pick, other: Pick) -> Rule {
+    pixels(one, other, OFF, Limit::Between(-0.5, 0.5), EDGE_NOISE)
+}
+
+/// Thesis Fig. 1.5, CESCG Fig. 1.
+pub const STRAIGHT: &[Claim] = &[
+    claim(
+        T13,
+        "Fig. 1.5",
+        "A square by the reflections of its corners has its edges in the wrong places.",
+        value(
+            at(SEARCH, 0.0),
+            OFF,
+            Limit::Above(1.0),
+            EDGE_NOISE,
+            Shown::In("px"),
+        ),
+        "a pixel of mean offset is seen by anyone.",
+    ),
+    claim(
+        Paper::Estalella2005,
+        "8",
+        "Edges of large polygons are reflected wrongly, since only their ends are.",
+        value(
+            at(SEARCH, 0.0),
+            OFF,
+            Limit::Above(1.0),
+            EDGE_NOISE,
+            Shown::In("px"),
+        ),
+        "as above: the search of this paper has the same edges between other ends.",
+    ),
+    claim(
+        C13,
+        "Fig. 1",
+        "Split often enough it is right.",
+        value(
+            at(SEARCH, 1.0),
+            OFF,
+            Limit::Below(1.0),
+            EDGE_NOISE,
+            Shown::In("px"),
+        ),
+        "less than a pixel of mean offset is as near as whole pixels allow.",
+    ),
+];
+
+/// Thesis Fig. 6.3.
+pub const LEVELS: &[Claim] = &[
+    claim(
+        T13,
+        "6.2",
+        "With a threshold of 0.001 no triangle is split more than twice, whatever the limit.",
+        value(
+            at(ADAPTIVE, 2.0),
+            Term::Path(UNFINISHED),
+            Limit::Between(0.0, 0.0),
+            Noise::Exact,
+            Shown::In("triangles"),
+        ),
+        "the triangles that at a limit of two would be split further, counted.",
+    ),
+    claim(
+        Paper::Ours,
+        "",
+        "Where the mirror hides a part of the square the same threshold splits more than twice.",
+        value(
+            at(HIDDEN, 2.0),
+            Term::Path(UNFINISHED),
+            Limit::Above(0.5),
+            Noise::Exact,
+            Shown::In("triangles"),
+        ),
+        "the triangles that at a limit of two would be split further, counted.",
+    ),
+    claim(
+        T13,
+        "5.2, 6.2",
+        "At three levels adaptive tessellation makes a faster frame than full tessellation.",
+        ratio(
+            at(ADAPTIVE, 3.0),
+            at(FULL, 3.0),
+            FRAME,
+            Limit::Below(1.0),
+            Noise::Clock,
+        ),
+        FASTER,
+    ),
+    claim(
+        T13,
+        "6.2",
+        "At a high limit its cost is much lower.",
+        ratio(
+            last(ADAPTIVE),
+            last(FULL),
+            FRAME,
+            Limit::Below(0.5),
+            Noise::Clock,
+        ),
+        "half is much lower.",
+    ),
+    claim(
+        T13,
+        "6.2",
+        "A limit above two leads to no more searches.",
+        ratio(
+            last(ADAPTIVE),
+            at(ADAPTIVE, 2.0),
+            SEARCHES,
+            Limit::Between(1.0, 1.05),
+            Noise::Exact,
+        ),
+        "searches are counted; a twentieth more is not worth a word.",
+    ),
+    claim(
+        T13,
+        "6.2",
+        "The picture is practically that of full tessellation: the same objects.",
+        alike(last(ADAPTIVE), last(FULL)),
+        HUNDREDTH,
+    ),
+    claim(
+        T13,
+        "6.2",
+        "The picture is practically that of full tessellation: the same edges.",
+        edges_alike(last(ADAPTIVE), last(FULL)),
+        HALF,
+    ),
+    claim(
+        T13,
+        "5.2",
+        "To compute the error costs next to nothing.",
+        value(
+            at(ADAPTIVE, 2.0),
+            Term::Quotient(REFINE_MS, FRAME_MS),
+            Limit::Below(0.05),
+            Noise::Clock,
+            Shown::Percent,
+        ),
+        "the share of a frame that goes into the pass that computes errors and splits: a twentieth.",
+    ),
+    claim(
+        Paper::Ours,
+        "",
+        "Full tessellation comes as near to the truth as answers in whole pixels allow.",
+        value(
+            of(Which::Named(FULL), Place::Least),
+            Term::Quotient(ANGLE, FLOOR),
+            Limit::Below(1.1),
+            Noise::Share(0.02),
+            Shown::Times,
+        ),
+        "the median angular error over the median angle between a pixel's centre and the rest of it; a \
+         tenth more is at that floor.",
+    ),
+];
+
+/// Thesis Fig. 5.3 and 5.4.
+pub const WIREFRAMES: &[Claim] = &[
+    claim(
+        T13,
+        "5.2",
+        "Full and adaptive tessellation are of like quality: the same objects.",
+        alike(at(SEARCH, 2.0), at(SEARCH, 1.0)),
+        HUNDREDTH,
+    ),
+    claim(
+        T13,
+        "5.2",
+        "Full and adaptive tessellation are of like quality: the same edges.",
+        edges_alike(at(SEARCH, 2.0), at(SEARCH, 1.0)),
+        HALF,
+    ),
+    claim(
+        T13,
+        "5.2, 7.2",
+        "A large number of triangles is spared.",
+        ratio(
+            at(SEARCH, 2.0),
+            at(SEARCH, 1.0),
+            TRIANGLES,
+            Limit::Below(0.5),
+            Noise::Exact,
+        ),
+        "triangles are counted: half is a large number.",
+    ),
+];
+
+/// Thesis Fig. 6.4.
+pub const VISIBLE: &[Claim] = &[
+    claim(
+        T13,
+        "Fig. 6.4",
+        "After level 3 there is almost nothing to see: the same objects.",
+        alike(at(FULL, 3.0), at(FULL, 2.0)),
+        HUNDREDTH,
+    ),
+    claim(
+        T13,
+        "Fig. 6.4",
+        "After level 3 there is almost nothing to see: the same edges.",
+        edges_alike(at(FULL, 3.0), at(FULL, 2.0)),
+        HALF,
+    ),
+    claim(
+        T13,
+        "Fig. 6.4",
+        "After level 3 there is almost nothing to see: the same colours.",
+        Rule {
+            shown: Shown::In("FLIP"),
+            ..difference(
+                at(FULL, 3.0),
+                at(FULL, 2.0),
+                Term::Path(FLIP),
+                Limit::Between(-0.01, 0.01),
+                ROUNDING,
+            )
+        },
+        "mean FLIP against the truth of the one less that of the other: 0.01 is what can be told.",
+    ),
+];
+
+/// Thesis Fig. 6.5, CESCG Fig. 10a.
+pub const CRACK: &[Claim] = &[
+    claim(
+        T13,
+        "6.2, Fig. 6.5",
+        "Gaps open where a split triangle meets one that is not split.",
+        value(
+            at(TO_FIVE, 3.0),
+            GAPS,
+            Limit::Above(0.5),
+            Noise::Exact,
+            Shown::In("pixels"),
+        ),
+        "pixels in cracks, and gaps too wide to be cracks, counted at the threshold of the thesis.",
+    ),
+    claim(
+        Paper::Ours,
+        "",
+        "Full tessellation, which splits all alike, leaves no T-junction.",
+        value(
+            at(TO_FIVE, 5.0),
+            Term::Path(JUNCTIONS),
+            Limit::Between(0.0, 0.0),
+            Noise::Exact,
+            Shown::In("T-junctions"),
+        ),
+        COUNTED,
+    ),
+    claim(
+        C13,
+        "5.3",
+        "The threshold controls how wide the gaps are.",
+        pixels(
+            at(TO_FIVE, 4.0),
+            of(Which::Named(TO_FIVE), Place::Most),
+            Term::Path(WIDEST),
+            Limit::Below(-0.5),
+            Noise::Exact,
+        ),
+        "the widest crack at a threshold of 0.0001 less the widest at any: at least a pixel narrower.",
+    ),
+];
+
+/// CESCG Fig. 7.
+pub const TABLE: &[Claim] = &[
+    claim(
+        C13,
+        "5.1, Fig. 7",
+        "Without tessellation the reflection of coarse models is visibly wrong.",
+        difference(
+            at(SEARCH, 2.0),
+            at(SEARCH, 0.0),
+            RIGHT,
+            Limit::Above(0.01),
+            ROUNDING,
+        ),
+        HUNDREDTH,
+    ),
+    claim(
+        C13,
+        "5.1, Fig. 7",
+        "Adaptive tessellation looks as if all were fully tessellated: the same objects.",
+        alike(at(SEARCH, 1.0), at(SEARCH, 2.0)),
+        HUNDREDTH,
+    ),
+    claim(
+        C13,
+        "5.1, Fig. 7",
+        "Adaptive tessellation looks as if all were fully tessellated: the same edges.",
+        edges_alike(at(SEARCH, 1.0), at(SEARCH, 2.0)),
+        HALF,
+    ),
+    claim(
+        C13,
+        "5.2, 6",
+        "It makes a faster frame than full tessellation.",
+        ratio(
+            at(SEARCH, 1.0),
+            at(SEARCH, 2.0),
+            FRAME,
+            Limit::Below(1.0),
+            Noise::Clock,
+        ),
+        FASTER,
+    ),
+];
+
+/// CESCG Fig. 7, object by object.
+pub const OBJECTS: &[Claim] = &[
+    claim(
+        C13,
+        "5.1, Fig. 7",
+        "Objects that are modelled finely are left as they are.",
+        value(
+            of(Which::Named(FINE), Place::Each),
+            GROWN,
+            Limit::Below(1.1),
+            Noise::Exact,
+            Shown::Times,
+        ),
+        "triangles of each object after tessellation over those before: a tenth more is nearly none.",
+    ),
+    claim(
+        C13,
+        "5.1, Fig. 7",
+        "Objects that are modelled coarsely are split.",
+        value(
+            of(Which::Named(COARSE), Place::Each),
+            GROWN,
+            Limit::Above(2.0),
+            Noise::Exact,
+            Shown::Times,
+        ),
+        "triangles of each object after tessellation over those before.",
+    ),
+];
+
+/// CESCG Fig. 8; places are those of the thresholds.
+pub const THRESHOLDS: &[Claim] = &[
+    claim(
+        C13,
+        "5.2",
+        "A threshold of 0.1 is too high.",
+        difference(
+            at(ADAPTIVE, 7.0),
+            at(ADAPTIVE, 1.0),
+            RIGHT,
+            Limit::Above(0.01),
+            ROUNDING,
+        ),
+        "the share of right mirror pixels that full tessellation has more: one in a hundred can be told.",
+    ),
+    claim(
+        C13,
+        "5.2",
+        "One of 0.01 is perfectly acceptable: the objects are right.",
+        difference(
+            at(ADAPTIVE, 7.0),
+            at(ADAPTIVE, 3.0),
+            RIGHT,
+            Limit::Below(0.01),
+            ROUNDING,
+        ),
+        "the share of right mirror pixels that full tessellation has more: one in a hundred can be told.",
+    ),
+    claim(
+        C13,
+        "5.2",
+        "One of 0.01 is perfectly acceptable: there are no gaps.",
+        value(
+            at(ADAPTIVE, 3.0),
+            Term::Path(CRACK_PIXELS),
+            Limit::Between(0.0, 0.0),
+            Noise::Exact,
+            Shown::In("pixels in cracks"),
+        ),
+        COUNTED,
+    ),
+    claim(
+        C13,
+        "5.1, 5.2",
+        "The threshold trades time for exactness: the smallest takes longer than the largest.",
+        ratio(
+            last(ADAPTIVE),
+            first(ADAPTIVE),
+            FRAME,
+            Limit::Above(1.0),
+            Noise::Clock,
+        ),
+        "above 1 it takes longer.",
+    ),
+    claim(
+        C13,
+        "5.1",
+        "The error that it limits is that in the picture: a smaller threshold leaves smaller errors at the edges.",
+        greatest_step(
+            Which::Named(ADAPTIVE),
+            OFF,
+            Limit::Below(1.05),
+            Noise::Share(0.02),
+        ),
+        "the mean offset of edges from one threshold to the next smaller one, at its worst; a twentieth more \
+         is scatter.",
+    ),
+    claim(
+        C13,
+        "5.2",
+        "Near 0 the technique is no longer interactive.",
+        ratio(
+            last(ADAPTIVE),
+            at(ADAPTIVE, 3.0),
+            FRAME,
+            Limit::Above(4.0),
+            Noise::Clock,
+        ),
+        "a frame's time at 0 over that at 0.01: what ran at 40 frames a second then runs at 10.",
+    ),
+    claim(
+        C13,
+        "5.2",
+        "A threshold of 1 is no tessellation.",
+        value(
+            first(ADAPTIVE),
+            GROWN,
+            Limit::Between(1.0, 1.0),
+            Noise::Exact,
+            Shown::Times,
+        ),
+        "triangles after over those before, counted.",
+    ),
+];
+
+/// CESCG Fig. 9.
+pub const COUNTS: &[Claim] = &[
+    claim(
+        C13,
+        "5.2, Fig. 9",
+        "Adaptive tessellation makes fewer vertices than full tessellation.",
+        ratio(
+            last(ADAPTIVE),
+            last(FULL),
+            TRIANGLES,
+            Limit::Below(1.0),
+            Noise::Exact,
+        ),
+        "triangles, of three vertices each, are counted.",
+    ),
+    claim(
+        C13,
+        "5.2, Fig. 9",
+        "It needs fewer searches.",
+        ratio(
+            last(ADAPTIVE),
+            last(FULL),
+            SEARCHES,
+            Limit::Below(1.0),
+            Noise::Exact,
+        ),
+        "searches are counted.",
+    ),
+    claim(
+        T13,
+        "6.2, 7.2",
+        "It makes pictures much better at a cost that can be borne.",
+        difference(
+            last(ADAPTIVE),
+            last(NONE),
+            RIGHT,
+            Limit::Above(0.01),
+            ROUNDING,
+        ),
+        "the share of right mirror pixels that it adds to no tessellation: one in a hundred can be told.",
+    ),
+];
+
+/// CESCG Fig. 10b.
+pub const FACETS: &[Claim] = &[
+    claim(
+        C13,
+        "5.3, Fig. 10b",
+        "On a mirror of facets, where a vertex has several reflection points or none, the search fails.",
+        value(
+            at(FOUR, 0.0),
+            RIGHT,
+            Limit::Below(0.9),
+            ROUNDING,
+            Shown::Percent,
+        ),
+        "one mirror pixel in ten wrong is a failure.",
+    ),
+    claim(
+        Paper::Ours,
+        "",
+        "Splitting the triangles helps there.",
+        difference(
+            at(FOUR, 1.0),
+            at(FOUR, 0.0),
+            RIGHT,
+            Limit::Above(0.01),
+            ROUNDING,
+        ),
+        HUNDREDTH,
+    ),
+];
+
+/// Both refinements under both searches.
+pub const HIERARCHY: &[Claim] = &[
+    claim(
+        T13,
+        "6.2",
+        "Full and adaptive tessellation relate alike under both searches: by time.",
+        Rule {
+            of: Measure::Own(relation_by_time, &[FRAME_MS]),
+            is: Limit::Between(0.8, 1.25),
+            noise: Noise::Clock,
+            shown: Shown::Times,
+        },
+        "full's frame over adaptive's under the hierarchy, over the same under the linear search, at the \
+         highest limit; a quarter is about the same.",
+    ),
+    claim(
+        T13,
+        "6.2",
+        "Full and adaptive tessellation relate alike under both searches: by searches.",
+        Rule {
+            of: Measure::Own(relation_by_searches, &[SEARCHED]),
+            is: Limit::Between(0.8, 1.25),
+            noise: Noise::Share(0.01),
+            shown: Shown::Times,
+        },
+        "the same of searches that are run.",
+    ),
+];
+
+fn relation_by_time(from: &dyn Numbers) -> Vec<Case> {
+    relation(from, FRAME, Noise::Clock)
+}
+
+fn relation_by_searches(from: &dyn Numbers) -> Vec<Case> {
+    relation(from, SEARCHES, Noise::Share(0.01))
+}
+
+fn relation(from: &dyn Numbers, term: Term, noise: Noise) -> Vec<Case> {
+    let number = || {
+        let x = *from.places(HIERARCHY_FULL).last()?;
+        let read = |series| term.read(from, series, x, noise);
+        let hierarchy = read(HIERARCHY_FULL)?.over(read(HIERARCHY_ADAPTIVE)?)?;
+        hierarchy.over(read(FULL)?.over(read(ADAPTIVE)?)?)
+    };
+    let case = |number| Case {
+        label: String::new(),
+        number,
+    };
+    number().map(case).into_iter().collect()
+}
+
+/// A sphere and an ellipsoid, threshold by threshold.
+pub const REFLECTORS: &[Claim] = &[
+    claim(
+        T13,
+        "5.1",
+        "A strongly curved mirror has larger edge errors: at the same threshold more is split.",
+        ratio(
+            at(ELLIPSOID, THOUSANDTH),
+            at(SPHERE, THOUSANDTH),
+            TRIANGLES,
+            Limit::Above(1.0),
+            Noise::Exact,
+        ),
+        "triangles are counted, at a threshold of 0.001.",
+    ),
+    claim(
+        T13,
+        "6.2",
+        "The right threshold depends on the mirror: the same one leaves other errors.",
+        ratio(
+            at(ELLIPSOID, THOUSANDTH),
+            at(SPHERE, THOUSANDTH),
+            OFF,
+            Limit::Outside(0.5, 2.0),
+            Noise::Share(0.1),
+        ),
+        "mean offset of edges at a threshold of 0.001, ellipsoid over sphere: up to twice is alike.",
+    ),
+];
+
+/// A mirror near and far.
+pub const SIZE: &[Claim] = &[claim(
+    T13,
+    "5.2, 6.2",
+    "A mirror that is small in the picture is split as much as a large one, needlessly.",
+    ratio(
+        at(SMALL_MIRROR, 0.0),
+        at(LARGE_MIRROR, 0.0),
+        TRIANGLES,
+        Limit::Between(0.8, 1.25),
+        Noise::Exact,
+    ),
+    "triangles are counted: a quarter is about as many.",
+)];
+
+/// A camera that moves.
+pub const DYNAMIC: &[Claim] = &[claim(
+    C13,
+    "5.2",
+    "Scenes that move cost adaptive tessellation nothing extra.",
+    value(
+        of(Which::Named(MOTION), Place::Each),
+        MOVING,
+        Limit::Below(1.25),
+        Noise::Share(0.15),
+        Shown::Times,
+    ),
+    "a moving frame's time over a still one's; less than a quarter is not told apart on a busy machine.",
+)];

@@ -1,9 +1,9 @@
 //! What is searched for a scene's meshes, and the cells between: grids, or trees of cells.
 //!
 //! A tree's cells depend on where vertices are, not on mirror or view: its memory is bounded by the mesh.
-//! Each cell with corners holds more than eight vertices, so that a level has at most 9/8 corners and
-//! centres a vertex, of 68 bytes a mirror and 16 once; with 13 levels that is 1.2 kB a vertex. Meshes that
-//! are surfaces take far less: half a corner or centre a vertex.
+//! Each cell with corners holds at least nine vertices, so that a level has at most one corner or centre a
+//! vertex. Each takes 72 bytes a mirror and 16 once; twelve levels of them are at most 1.1 kB a vertex with one
+//! mirror. Meshes that are surfaces have a third of a corner or centre a vertex.
 //!
 //! The records that a search answers for are scene vertices first, then corners and centres of
 //! cells. They depend on the meshes alone; which of them a frame asks for is settled on the GPU,

@@ -355,8 +355,9 @@ fn a_search_starts_from_its_own_answer_of_the_frame_before() {
     let mut prepared = prepared.expect("fits the device");
     let [first, second] = [(); 2].map(|()| prepared.render().expect("renders"));
     assert_eq!(first.searched, second.searched);
+    // What has no answer starts anew.
     let (cold, warm) = (first.work.evaluations, second.work.evaluations);
-    assert!(warm < cold.map(|cold| 0.5 * cold), "{warm:?} of {cold:?}");
+    assert!(warm < cold.map(|cold| 0.6 * cold), "{warm:?} of {cold:?}");
     // Both end where a step is below 1e-4 px.
     let pairs = answers(&first).into_iter().zip(answers(&second));
     let mut gaps: Vec<_> = pairs.map(|(a, b)| a.1.distance(b.1)).collect();

@@ -117,7 +117,8 @@ impl Lattice {
     fn needed(&self, occupied: &[Occupied]) -> Vec<u64> {
         let nodes = occupied.iter().flat_map(|held| {
             let corners = self.corners(unkey(held.cell)).into_iter().enumerate();
-            corners.filter_map(|(corner, node)| held.needs(corner).then(|| key(node)))
+            let needed = corners.filter(|(corner, _)| held.needs(*corner));
+            needed.map(|(_, node)| key(node))
         });
         distinct(nodes.collect())
     }

@@ -84,7 +84,7 @@ pub(super) struct Forest {
     pub points: Vec<Point>,
     /// Level by level; a level's cells are parts of the one before.
     pub cells: Vec<Cell>,
-    /// Each level's cells; there is more than one where a frame settles what it searches.
+    /// Each level's cells; none where every record is searched, so that a frame has nothing to settle.
     pub levels: Vec<Range<u32>>,
     /// Scene vertices in the order of the leaves that they lie in.
     pub order: Vec<u32>,
@@ -145,7 +145,6 @@ impl Forest {
                     cell: cells + cell,
                 }));
         }
-        made.levels = vec![0..made.cells.len() as u32];
         made
     }
 

@@ -178,7 +178,7 @@ mod tests {
             let answers = mirror
                 .interpolated
                 .read_found(gpu, made.forest.places.len() as u32);
-            let (mut alike, mut all) = (0, 0);
+            let (mut alike, mut all) = (0_u32, 0_u32);
             for (vertex, answer) in answers.iter().enumerate() {
                 let place = made.forest.places[vertex];
                 if states[place.cell as usize] == SEARCHED {
@@ -187,7 +187,7 @@ mod tests {
                 }
                 all += 1;
                 let expected = twin.interpolated(positions[vertex], place, &states);
-                alike += usize::from(match expected {
+                alike += u32::from(match expected {
                     None => answer.state == Found::FAILED,
                     Some((state, image)) => {
                         answer.state == state && answer.image.distance(image) < EXACT
@@ -195,7 +195,7 @@ mod tests {
                 });
             }
             assert!(
-                alike as f64 >= ALIKE * all as f64,
+                f64::from(alike) >= ALIKE * f64::from(all),
                 "{name}: {alike} of {all}"
             );
         }

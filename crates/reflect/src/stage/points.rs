@@ -80,13 +80,7 @@ pub(crate) struct Points {
 
 /// The layout of [`Points::group`].
 pub(crate) fn points_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    let slots = [
-        Slot::Read,
-        Slot::Write,
-        Slot::Read,
-        Slot::Write,
-        Slot::Read,
-    ];
+    let slots = [Slot::Read, Slot::Write, Slot::Read, Slot::Write, Slot::Read];
     layout(gpu, "points", &slots)
 }
 
@@ -338,7 +332,17 @@ mod tests {
 
     #[test]
     fn records_lie_as_the_shaders_read_them() {
-        assert_layout!(Range { first, count, warm, listed }, "linear", &[], "Range");
+        assert_layout!(
+            Range {
+                first,
+                count,
+                warm,
+                listed
+            },
+            "linear",
+            &[],
+            "Range"
+        );
         assert_layout!(
             Found {
                 position,

@@ -2,10 +2,11 @@
 //! in `f32`: the file `twin.rs` in a technique's folder. Twins are kept close to the shaders' text,
 //! so that the two can be compared by eye; they are for tests.
 
-use glam::{IVec2, Vec3, Vec4};
+use glam::{IVec2, Vec2, Vec3, Vec4};
 
 use crate::gpu::Gpu;
 use crate::stage::Stage;
+use crate::stage::view::ViewUniform;
 
 /// `shared/mirror.wesl`: the G-buffer of one mirror.
 pub(crate) struct GBuffer {
@@ -65,4 +66,15 @@ pub(crate) fn vertices(stage: &Stage) -> Vec<Vec3> {
     objects
         .flat_map(|object| object.mesh.positions.iter().copied())
         .collect()
+}
+
+/// `shared/view.wesl`: image coordinates of a world-space point; `None` behind the eye.
+pub(crate) fn image(view: &ViewUniform, point: Vec3) -> Option<Vec2> {
+    let offset = point - view.eye;
+    let depth = offset.dot(view.forward);
+    let across = Vec2::new(
+        offset.dot(view.right) / view.tan_x,
+        -offset.dot(view.up) / view.tan_y,
+    );
+    (depth > 0.0).then(|| (across / depth + 1.0) * 0.5 * view.size.as_vec2())
 }

@@ -3,10 +3,10 @@
 use crate::suites::claims::make::{claim, difference, greatest_step, grows, ratio, value};
 use crate::suites::claims::{
     Case, Claim, EVERY, Limit, Measure, Noise, Numbers, Paper, Place, Rule, Shown, Term, Which, at,
-    last, of,
+    each, last, of,
 };
 use crate::suites::paths::{
-    AGREEMENT, EVALUATIONS, EXTRA, FLIP, FRAME_MS, JITTER_P99, JUMPS, MEDIAN_PX, MISSING,
+    AGREEMENT, EVALUATIONS, EXTRA, FLIP, FRAME_MS, JITTER_P99, JUMPS, MEAN_PX, MEDIAN_PX, MISSING, SEARCHED,
     SEARCH_MS, STEPS,
 };
 
@@ -220,6 +220,68 @@ const PAIRS: [(&str, f64, f64); 3] = [
     ("5 steps", 1.0, 4.0),
     ("9 steps", 2.0, 5.0),
     ("25 steps", 3.0, 6.0),
+];
+
+/// Cells by the ratio of their edge to the distance, in meshes of more and more vertices.
+pub const EDGES: &[Claim] = &[
+    claim(
+        Paper::Ours,
+        "",
+        "The cells' edge against the distance counts, and not their share of the vertices.",
+        ratio(
+            each("300 vertices"),
+            each("3k vertices"),
+            Term::Path(MEAN_PX),
+            Limit::Between(0.8, 1.25),
+            Noise::Share(0.05),
+        ),
+        "the mean offset in the same cells with a tenth of the vertices, over that with all: a quarter more or \
+         less counts as the same.",
+    ),
+    claim(
+        Paper::Ours,
+        "",
+        "The offset grows with the square of the cells' edge.",
+        grows(EVERY, Term::Path(MEAN_PX), Limit::Between(1.5, 2.5)),
+        "the power of the edge: interpolation misses by the curvature times the square of the edge.",
+    ),
+];
+
+/// Series of published grids.
+pub const PUBLISHED: &str = "published grid";
+/// Of trees of cells.
+pub const TREE: &str = "octree";
+/// Without a grid.
+pub const ALL: &str = "all vertices";
+
+/// Trees of cells beside published grids.
+pub const TREES: &[Claim] = &[
+    claim(
+        Paper::Ours,
+        "",
+        "At its best a tree shows more than any published grid here.",
+        difference(
+            of(Which::Named(TREE), Place::Most),
+            of(Which::Named(PUBLISHED), Place::Most),
+            RIGHT,
+            Limit::Above(0.01),
+            ROUNDING,
+        ),
+        HUNDREDTH,
+    ),
+    claim(
+        Paper::Ours,
+        "",
+        "The finest tree takes less than half of the searches of all vertices.",
+        ratio(
+            of(Which::Named(TREE), Place::Most),
+            of(Which::Named(ALL), Place::Most),
+            Term::Path(SEARCHED),
+            Limit::Below(0.5),
+            Noise::Exact,
+        ),
+        "below a half interpolation pays wherever searching costs more than interpolating.",
+    ),
 ];
 
 /// Sweeps of the maps, by the number of segments or of texels.

@@ -12,7 +12,7 @@ use crate::suites::series::{Ask, Point, Series};
 use super::claims;
 use super::data::{search, with_grid};
 
-const KITCHEN: &str = "kitchen";
+pub const KITCHEN: &str = "kitchen";
 
 /// On what the paper measured.
 const PAPER: &str = "Xeon 3.2 GHz, GeForce 6800";

@@ -2,10 +2,12 @@
 //! Estalella et al. 2005.
 //!
 //! Fig. 6 to 8 on a kitchen, with exact errors beside them on the mirrors whose reflection points
-//! are known ([`kitchen`]); the constants that the paper leaves open ([`constants`]); what the maps
-//! are made from and how fine they are ([`maps`]); hidden vertices ([`silhouette`]); steadiness over a camera path ([`steadiness`]). Fig. 4 and 5 are
-//! pictures of what the search does ([`pictures`]).
+//! are known ([`kitchen`]); what cells must be like ([`cells`]); the constants that the paper leaves
+//! open ([`constants`]); what the maps are made from and how fine they are ([`maps`]); hidden vertices
+//! ([`silhouette`]); steadiness over a camera path ([`steadiness`]). Fig. 4 and 5 are pictures of what
+//! the search does ([`pictures`]).
 
+mod cells;
 mod claims;
 mod constants;
 mod data;
@@ -35,7 +37,9 @@ pub const SUITE: Suite = Suite {
 fn figures(asked: &Asked<'_>) -> Vec<Figure> {
     let scene = asked.scene;
     let mut figures = kitchen::figures(scene);
+    figures.push(cells::trees(scene.unwrap_or(kitchen::KITCHEN)));
     if scene.is_none() {
+        figures.push(cells::edges());
         figures.extend(constants::figures());
         figures.extend(maps::figures());
         figures.extend([silhouette::figure(), steadiness::figure()]);

@@ -17,6 +17,8 @@ pub(crate) struct Cells {
     pub cells: Vec<[u32; 8]>,
     /// For each vertex of the mesh, its cell and its local coordinates in [0, 1]³.
     pub places: Vec<(u32, Vec3)>,
+    /// Corners that no vertex of the mesh is interpolated from.
+    pub unneeded: usize,
 }
 
 /// A box divided evenly.
@@ -105,11 +107,18 @@ impl Lattice {
         held
     }
 
-    /// Vertices of occupied cells that a position needs, each once, in order.
+    /// Vertices of occupied cells, each once, in order.
     fn nodes(&self, occupied: &[Occupied]) -> Vec<u64> {
+        let corners = |held: &Occupied| self.corners(unkey(held.cell)).map(key);
+        distinct(occupied.iter().flat_map(corners).collect())
+    }
+
+    /// Those of them that a position needs.
+    fn needed(&self, occupied: &[Occupied]) -> Vec<u64> {
         let nodes = occupied.iter().flat_map(|held| {
             let corners = self.corners(unkey(held.cell)).into_iter().enumerate();
-            corners.filter_map(|(corner, node)| held.needs(corner).then(|| key(node)))
+            let needed = corners.filter(|(corner, _)| held.needs(*corner));
+            needed.map(|(_, node)| key(node))
         });
         distinct(nodes.collect())
     }
@@ -165,8 +174,8 @@ fn bounds(positions: &[Vec3]) -> (DVec3, DVec3) {
 }
 
 impl Cells {
-    /// The grid whose vertices number as nearly as possible `fraction` of the mesh's. `None` if it
-    /// would have no fewer than the mesh itself.
+    /// The grid whose vertices, needed or not, number as nearly as possible `fraction` of the mesh's.
+    /// `None` if it would have no fewer than the mesh itself.
     pub(crate) fn by_fraction(positions: &[Vec3], fraction: f64) -> Option<Self> {
         if fraction >= 1.0 || positions.len() < 2 {
             return None;
@@ -205,7 +214,7 @@ impl Cells {
         let around = around.iter().map(|lattice| (miss(lattice), lattice));
         let (_, lattice) = around.min_by(|a, b| a.0.total_cmp(&b.0))?;
         let cells = Self::in_lattice(positions, lattice);
-        (cells.vertices.len() < positions.len()).then_some(cells)
+        (cells.vertices.len() + cells.unneeded < positions.len()).then_some(cells)
     }
 
     /// The grid with cells of about this edge in world units.
@@ -217,18 +226,20 @@ impl Cells {
 
     fn in_lattice(positions: &[Vec3], lattice: &Lattice) -> Self {
         let occupied = lattice.occupied(positions);
-        let nodes = lattice.nodes(&occupied);
+        let nodes = lattice.needed(&occupied);
         let index = |nodes: &[u64], at: UVec3| {
             let found = nodes.binary_search(&key(at));
             found.expect("listed above") as u32
         };
         let corners = |held: &Occupied| {
-            let nodes_around = lattice.corners(unkey(held.cell));
-            let needed = (0..8).find(|corner| held.needs(*corner));
-            let needed = needed.expect("the shares of a position add up to 1");
-            std::array::from_fn(|corner| {
-                let corner = if held.needs(corner) { corner } else { needed };
-                index(&nodes, nodes_around[corner])
+            let around = lattice.corners(unkey(held.cell));
+            let needed = || (0..8).filter(|corner| held.needs(*corner));
+            let stand_in = needed()
+                .next()
+                .expect("the shares of a position add up to 1");
+            around.map(|node| {
+                let is_needed = needed().any(|corner| around[corner] == node);
+                index(&nodes, if is_needed { node } else { around[stand_in] })
             })
         };
         let place = |position: &Vec3| {
@@ -243,6 +254,7 @@ impl Cells {
                 .collect(),
             cells: occupied.iter().map(corners).collect(),
             places: positions.iter().map(place).collect(),
+            unneeded: lattice.nodes(&occupied).len() - nodes.len(),
         }
     }
 }
@@ -302,7 +314,7 @@ mod tests {
         for positions in [sphere(), square(false), square(true)] {
             for fraction in [0.041, 0.055, 0.096, 0.143] {
                 let cells = Cells::by_fraction(&positions, fraction).expect("coarser");
-                let got = cells.vertices.len() as f64 / positions.len() as f64;
+                let got = (cells.vertices.len() + cells.unneeded) as f64 / positions.len() as f64;
                 assert!((got / fraction - 1.0).abs() < SHARE, "{got} for {fraction}");
             }
         }
@@ -311,7 +323,13 @@ mod tests {
     #[test]
     fn cells_are_nearly_cubes_and_flat_meshes_have_one_layer() {
         let cells = Cells::by_fraction(&sphere(), 0.1).expect("coarser");
+        let mut whole = 0;
         for corners in &cells.cells {
+            if (1..8).any(|corner| corners[..corner].contains(&corners[corner])) {
+                // One stands for another that is not needed.
+                continue;
+            }
+            whole += 1;
             let [a, x, y, z] = [0, 1, 2, 4].map(|i| cells.vertices[corners[i] as usize]);
             let edges = [x - a, y - a, z - a].map(DVec3::length);
             let (least, greatest) = (
@@ -321,6 +339,7 @@ mod tests {
             // One cell more along one of the axes, of which there are at least four.
             assert!(greatest / least < 1.3, "{edges:?}");
         }
+        assert!(2 * whole > cells.cells.len(), "{whole}");
         let cells = Cells::by_fraction(&square(false), 0.1).expect("coarser");
         assert!(
             cells
@@ -334,6 +353,24 @@ mod tests {
                 .iter()
                 .all(|vertex| (vertex.y - 0.3).abs() < 1e-6)
         );
+    }
+
+    #[test]
+    fn corners_that_no_vertex_is_interpolated_from_are_left_out() {
+        // Two walls that face each other: between them lie layers of corners that no vertex needs, even in
+        // cells that hold a wall.
+        let wall = |x: f32| {
+            square(false)
+                .into_iter()
+                .map(move |p| Vec3::new(x, p.x, p.z))
+        };
+        let walls: Vec<_> = wall(-1.0).chain(wall(1.0)).collect();
+        let (low, extent) = bounds(&walls);
+        let lattice = Lattice::new(low, extent, 0.4, |_, cells| cells.round());
+        let all = lattice.nodes(&lattice.occupied(&walls)).len();
+        let cells = Cells::by_edge(&walls, 0.4);
+        assert_eq!([2 * cells.vertices.len(), 2 * cells.unneeded], [all; 2]);
+        assert!(cells.vertices.iter().all(|vertex| vertex.x.abs() == 1.0));
     }
 
     #[test]

@@ -1,5 +1,10 @@
 //! What is searched for a scene's meshes, and the cells between: grids, or trees of cells.
 //!
+//! A tree's cells depend on where vertices are, not on mirror or view: its memory is bounded by the mesh.
+//! Each cell with corners holds at least nine vertices, so that a level has at most one corner or centre a
+//! vertex. Each takes 72 bytes a mirror and 16 once; twelve levels of them are at most 1.1 kB a vertex with one
+//! mirror. Meshes that are surfaces have a third of a corner or centre a vertex.
+//!
 //! The records that a search answers for are scene vertices first, then corners and centres of
 //! cells. They depend on the meshes alone; which of them a frame asks for is settled on the GPU,
 //! unless all of them are (`mixed=interpolate`).
@@ -7,10 +12,11 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use encase::ShaderType;
+use encase::{ShaderSize, ShaderType};
 use glam::{DVec3, Vec3};
 
 use super::cells::Cells;
+use crate::gpu::{Gpu, storage, storage_zeros};
 
 /// Twin of `Place` in `grid/cells.wesl`: where a vertex of the scene lies among what is searched.
 #[derive(Clone, Copy, Debug, PartialEq, ShaderType)]
@@ -78,7 +84,7 @@ pub(super) struct Forest {
     pub points: Vec<Point>,
     /// Level by level; a level's cells are parts of the one before.
     pub cells: Vec<Cell>,
-    /// Each level's cells; there is more than one where a frame settles what it searches.
+    /// Each level's cells; none where every record is searched, so that a frame has nothing to settle.
     pub levels: Vec<Range<u32>>,
     /// Scene vertices in the order of the leaves that they lie in.
     pub order: Vec<u32>,
@@ -133,12 +139,12 @@ impl Forest {
             };
             let cells = made.cells.len() as u32;
             made.add_roots(object, grid);
-            made.places.extend(grid.places.iter().map(|(cell, local)| Place {
-                local: *local,
-                cell: cells + cell,
-            }));
+            made.places
+                .extend(grid.places.iter().map(|(cell, local)| Place {
+                    local: *local,
+                    cell: cells + cell,
+                }));
         }
-        made.levels = vec![0..made.cells.len() as u32];
         made
     }
 
@@ -255,6 +261,14 @@ impl Forest {
     /// Records of all kinds.
     pub(super) fn records(&self) -> u32 {
         (self.vertices.len() + self.points.len()) as u32
+    }
+
+    /// Its cells, as shaders read them. There is room for one where there is none.
+    pub(super) fn cells_on(&self, gpu: &Gpu) -> wgpu::Buffer {
+        match self.cells.is_empty() {
+            true => storage_zeros(gpu, Cell::SHADER_SIZE.get()),
+            false => storage(gpu, &self.cells),
+        }
     }
 
     /// The cells of a grid, without parts.
@@ -376,5 +390,80 @@ impl Pending {
                 part
             })
             .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::scene;
+
+    /// World-space position of what has these coordinates in a cell of a tree.
+    fn place_of(forest: &Forest, mut cell: usize, mut local: Vec3) -> DVec3 {
+        let cells = &forest.cells;
+        // A leaf has no corners to count from.
+        while cells[cell].leaf == 1 && cells[cell].parent != NONE {
+            local = cells[cell].offset + cells[cell].scale * local;
+            cell = cells[cell].parent as usize;
+        }
+        let corner = |index: usize| {
+            let record = cells[cell].corners[index] as usize;
+            forest.points[record - forest.vertices.len()].rest
+        };
+        let ways = [1, 2, 4].map(|index| corner(index) - corner(0));
+        let local = local.as_dvec3();
+        corner(0) + local.x * ways[0] + local.y * ways[1] + local.z * ways[2]
+    }
+
+    #[test]
+    fn every_cell_of_a_tree_around_a_vertex_gives_it_back() {
+        let scene = scene("kitchen");
+        let meshes: Vec<_> = (scene.objects.iter())
+            .map(|object| object.mesh.positions.as_slice())
+            .collect();
+        let forest = Forest::of_trees(&meshes);
+        let all: Vec<_> = meshes.iter().copied().flatten().collect();
+        for (position, place) in all.iter().zip(&forest.places) {
+            let (mut cell, mut local) = (place.cell as usize, place.local);
+            assert_eq!(forest.cells[cell].leaf, 1);
+            while forest.cells[cell].parent != NONE {
+                let part = &forest.cells[cell];
+                (local, cell) = (part.offset + part.scale * local, part.parent as usize);
+                let gap = place_of(&forest, cell, local).distance(position.as_dvec3());
+                assert!(gap < 1e-5, "{gap}");
+            }
+        }
+        let mut order = forest.order.clone();
+        order.sort_unstable();
+        assert_eq!(order, forest.vertices, "each vertex in one leaf");
+    }
+
+    #[test]
+    fn trees_take_half_a_record_a_vertex_more_than_the_vertices() {
+        for name in ["kitchen", "sphere-objects-20k"] {
+            let scene = scene(name);
+            let meshes: Vec<_> = (scene.objects.iter())
+                .map(|object| object.mesh.positions.as_slice())
+                .collect();
+            let forest = Forest::of_trees(&meshes);
+            let vertices = forest.vertices.len() as f64;
+            assert!(f64::from(forest.records()) < 1.5 * vertices, "{name}");
+            assert!((forest.cells.len() as f64) < 0.5 * vertices, "{name}");
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_divided_is_a_leaf() {
+        let one_place = vec![Vec3::new(0.1, -2.0, 3.0); 50];
+        let forest = Forest::of_trees(&[&one_place, &[], &[Vec3::X]]);
+        assert_eq!(forest.cells.len(), 2);
+        assert!(forest.cells.iter().all(|cell| cell.leaf == 1));
+        // Two clusters, nearer to one another than the smallest cell is large beside a third vertex.
+        let mut near = one_place;
+        near.extend([Vec3::new(0.1, -2.0, 3.000_01); 50]);
+        near.push(Vec3::splat(1e3));
+        let forest = Forest::of_trees(&[&near]);
+        assert!(forest.levels.len() <= MOST_LEVELS);
+        assert!(forest.points.len() <= 9 * MOST_LEVELS);
     }
 }

@@ -16,6 +16,8 @@ mod pose;
 mod settling;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod twin;
 
 use catoptric_frame::{Triangles, VertexResult};
 use catoptric_scene::Scene;
@@ -215,7 +217,7 @@ impl Interpolation {
             layout,
             points_layout: context.points_layout.clone(),
             places: storage(gpu, &forest.places),
-            cells: storage(gpu, &forest.cells),
+            cells: forest.cells_on(gpu),
             forest,
             poses,
             settling,
@@ -232,7 +234,11 @@ impl Interpolation {
     fn positions(&self) -> Vec<[f32; 4]> {
         let meshes = meshes(&self.scene);
         let all: Vec<_> = meshes.iter().copied().flatten().copied().collect();
-        let vertices = self.forest.vertices.iter().map(|vertex| all[*vertex as usize]);
+        let vertices = self
+            .forest
+            .vertices
+            .iter()
+            .map(|vertex| all[*vertex as usize]);
         let moves = self.poses.iter().zip(&meshes).map(|(pose, positions)| {
             let pose = pose.as_ref();
             pose.map_or(DAffine3::IDENTITY, |pose| pose.moved(positions))
@@ -308,7 +314,8 @@ impl Refine for Interpolation {
     }
 
     fn begin_frame(&mut self, gpu: &Gpu, _stage: &Stage, warm: bool) {
-        let warm = warm && !std::mem::take(&mut self.fresh);
+        let fresh = std::mem::take(&mut self.fresh);
+        let warm = warm && !fresh;
         for OnMirror {
             searched, settled, ..
         } in &self.mirrors

@@ -4,7 +4,7 @@
 use encase::{ShaderSize, ShaderType};
 use glam::UVec3;
 
-use super::forest::{Cell, Forest};
+use super::forest::Forest;
 use crate::error::ReflectError;
 use crate::gpu::{
     Gpu, Kernel, Recorder, Slot, compute, dispatch_size, group, layout, module, storage,
@@ -107,7 +107,7 @@ impl Settling {
         })
     }
 
-    /// A mirror's batch of all records, and what settles which of them are searched. `cells`: of [`Cell`].
+    /// A mirror's batch of all records, and what settles which of them are searched. `cells`: of [`super::forest::Cell`].
     pub(super) fn on_mirror(
         &self,
         gpu: &Gpu,
@@ -205,6 +205,7 @@ impl Settled {
 
 #[cfg(test)]
 mod tests {
+    use super::super::forest::Cell;
     use super::*;
     use crate::testing::assert_layout;
 

@@ -1,10 +1,10 @@
 //! Twin of `tessellation/kernels.wesl`: the edge error and the loop. New points are searched by the GPU's
 //! own search, which has a twin of its own, so that what differs here is the tessellation's.
 
-use glam::{IVec2, Vec2, Vec3};
+use glam::{IVec2, Vec3};
 
 use crate::stage::points::Found;
-use crate::stage::twin::GBuffer;
+use crate::stage::twin::{GBuffer, image};
 use crate::stage::view::ViewUniform;
 
 /// Weight 1 of a packed place.
@@ -43,24 +43,12 @@ fn halfway(a: u32, b: u32) -> u32 {
 }
 
 impl Tessellation<'_> {
-    /// Image coordinates; `None` behind the eye.
-    fn image(&self, point: Vec3) -> Option<Vec2> {
-        let view = &self.view;
-        let offset = point - view.eye;
-        let depth = offset.dot(view.forward);
-        let across = Vec2::new(
-            offset.dot(view.right) / view.tan_x,
-            -offset.dot(view.up) / view.tan_y,
-        );
-        (depth > 0.0).then(|| (across / depth + 1.0) * 0.5 * view.size.as_vec2())
-    }
-
     fn edge_error(&self, a: &Point, b: &Point) -> f32 {
         if a.answer.state == Found::FAILED || b.answer.state == Found::FAILED {
             return 1.0;
         }
         let on_edge = (a.answer.position + b.answer.position) * 0.5;
-        let Some(at) = self.image(on_edge) else {
+        let Some(at) = image(&self.view, on_edge) else {
             return 1.0;
         };
         let texel: IVec2 = at.floor().as_ivec2();

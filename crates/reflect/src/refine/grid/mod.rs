@@ -20,7 +20,8 @@ use crate::gpu::{
     Gpu, Kernel, Recorder, Slot, compute, group, layout, module, storage, storage_bytes,
 };
 use crate::options::options;
-use crate::search::Search;
+use crate::refine::scene_vertices::in_a_row;
+use crate::search::{Search, Sheet};
 use crate::stage::Stage;
 use crate::stage::options::Depth;
 use crate::stage::points::{Efforts, Points};
@@ -97,6 +98,8 @@ struct Interpolation {
     meshes: Vec<Mesh>,
     /// A [`Place`] a vertex of the scene.
     places: wgpu::Buffer,
+    sheets: Vec<Sheet>,
+    /// One a sheet.
     mirrors: Vec<OnMirror>,
     /// What the mirrors' searches were made for.
     scene: Scene,
@@ -104,7 +107,7 @@ struct Interpolation {
     fresh: bool,
 }
 
-/// Searched and interpolated points on one mirror.
+/// Searched and interpolated points on one sheet of a mirror.
 struct OnMirror {
     searched: Points,
     count: u32,
@@ -207,6 +210,7 @@ impl Interpolation {
             points_layout: context.points_layout.clone(),
             places: storage(gpu, &places(&meshes, &scene)),
             meshes,
+            sheets: context.sheets.to_vec(),
             mirrors: Vec::new(),
             scene,
             fresh: true,
@@ -217,7 +221,8 @@ impl Interpolation {
 
     /// Makes what is searched on each mirror, for objects and mirrors as they stand.
     fn searches(&self, gpu: &Gpu, stage: &Stage) -> Vec<OnMirror> {
-        let shapes = self.scene.mirrors.iter().map(|mirror| &mirror.shape);
+        let shapes = self.sheets.iter();
+        let shapes = shapes.map(|sheet| &self.scene.mirrors[sheet.mirror].shape);
         shapes
             .map(|shape| self.on_mirror(gpu, stage, &**shape))
             .collect()
@@ -309,12 +314,12 @@ impl Refine for Interpolation {
         frame: &mut Recorder<'_>,
         stage: &Stage,
         search: &dyn Search,
-        mirror: usize,
+        sheet: Sheet,
         variant: Variant,
     ) {
         let world = &stage.world;
-        let on_mirror = &self.mirrors[mirror];
-        search.record_search(frame, stage, mirror, &on_mirror.searched, variant);
+        let on_mirror = &self.mirrors[sheet.index];
+        search.record_search(frame, stage, sheet, &on_mirror.searched, variant);
         frame.compute("interpolate", |pass| {
             pass.set_pipeline(&self.interpolate);
             pass.set_bind_group(0, &world.view_group, &[]);
@@ -323,34 +328,33 @@ impl Refine for Interpolation {
         });
         let found = &on_mirror.draw;
         self.raster
-            .record(frame, stage, mirror, found, variant, |pass| {
+            .record(frame, stage, sheet.mirror, found, variant, |pass| {
                 pass.draw(0..world.corners, 0..1);
             });
     }
 
     fn vertices(&self, gpu: &Gpu, stage: &Stage) -> Vec<VertexResult> {
-        let places: Vec<_> = stage.world.places().collect();
-        let mirrors = stage.world.mirrors.iter().zip(&self.mirrors);
-        mirrors
-            .flat_map(|(mirror, on)| on.interpolated.results(gpu, mirror.id, &places, false))
-            .collect()
+        let batches: Vec<_> = self.mirrors.iter().map(|on| &on.interpolated).collect();
+        in_a_row(gpu, stage, &self.sheets, &batches, false)
     }
 
     fn efforts(&self, gpu: &Gpu, _stage: &Stage) -> Efforts {
         let mut total = Efforts::default();
-        for mirror in &self.mirrors {
-            total.add(mirror.searched.total(gpu, mirror.count));
+        for (sheet, on_mirror) in self.sheets.iter().zip(&self.mirrors) {
+            let mut efforts = on_mirror.searched.total(gpu, on_mirror.count);
+            efforts.searched *= u64::from(sheet.number == 0);
+            total.add(efforts);
         }
         total
     }
 
     fn notes(&self) -> Vec<String> {
-        let inside = self.mirrors.iter().zip(&self.scene.mirrors);
+        let inside = self.mirrors.iter().zip(&self.sheets);
         inside
-            .filter(|(on, _)| on.dropped > 0)
-            .map(|(on, mirror)| {
+            .filter(|(on, sheet)| on.dropped > 0 && sheet.number == 0)
+            .map(|(on, sheet)| {
                 let all = on.count + on.dropped;
-                let name = &mirror.name;
+                let name = &self.scene.mirrors[sheet.mirror].name;
                 format!(
                     "{} of {all} grid vertices lie inside mirror `{name}` and are left out",
                     on.dropped
@@ -360,9 +364,10 @@ impl Refine for Interpolation {
     }
 
     fn triangles(&self, _gpu: &Gpu, stage: &Stage) -> Triangles {
-        let drawn = u64::from(stage.world.corners / 3) * self.mirrors.len() as u64;
+        let triangles = u64::from(stage.world.corners / 3);
+        let drawn = triangles * self.mirrors.len() as u64;
         Triangles {
-            input: drawn,
+            input: triangles * stage.world.mirrors.len() as u64,
             drawn,
             by_level: vec![drawn],
             unfinished: 0,

@@ -43,6 +43,8 @@ pub enum VertexState {
     Hidden,
     /// The search reports that it has no answer.
     Failed,
+    /// The point lies beyond the rim of an open mirror, on the closed surface that it was cut from.
+    Unreflected,
 }
 
 /// The exact answer for one (object vertex, mirror) pair; occlusion is not considered.

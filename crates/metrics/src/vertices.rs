@@ -128,11 +128,7 @@ pub fn vertex_report(
             discard.false_drop += 1;
         }
 
-        let found: Vec<DVec2> = group
-            .iter()
-            .filter(|result| result.state != VertexState::Failed && result.at.is_finite())
-            .map(|result| result.at.as_dvec2())
-            .collect();
+        let found = found(group);
         solutions += in_view.len() as u64;
         recalled += in_view
             .iter()
@@ -180,15 +176,24 @@ pub fn vertex_errors(
             if !projected().any(|q| in_view(pair, q)) {
                 return None;
             }
-            let found = group
-                .iter()
-                .filter(|result| result.state != VertexState::Failed && result.at.is_finite())
-                .map(|result| result.at.as_dvec2());
-            found
+            found(group)
+                .into_iter()
                 .flat_map(|found| projected().map(move |q| found - q))
                 .min_by(|a, b| a.length_squared().total_cmp(&b.length_squared()))
         })
         .collect())
+}
+
+/// Where a search says that a vertex is reflected. Where it says so of none of its answers, those that it
+/// calls hidden or unreflected stand for it.
+fn found(group: &[VertexResult]) -> Vec<DVec2> {
+    let is_found = |result: &VertexResult| result.state == VertexState::Found;
+    let any_found = group.iter().any(is_found);
+    let answers = group
+        .iter()
+        .filter(|result| is_found(result) || !any_found && result.state != VertexState::Failed);
+    let places = answers.map(|result| result.at.as_dvec2());
+    places.filter(|at| at.is_finite()).collect()
 }
 
 fn has_failed(result: &VertexResult) -> bool {

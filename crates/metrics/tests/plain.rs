@@ -584,3 +584,57 @@ fn offsets_and_jitter() {
         close("jitter, max", jitter.max, plain.max);
     }
 }
+
+#[test]
+fn of_several_answers_those_that_are_found_are_judged() {
+    let answer = |state, x| VertexResult {
+        object: 1,
+        vertex: 0,
+        mirror: 2,
+        state,
+        at: Vec2::new(x, 0.0),
+        steps: 0,
+        evaluations: 0,
+        node_tests: 0,
+        hole: None,
+        enlarged: None,
+        stand_in: false,
+    };
+    let truth = [TrueVertex {
+        class: VertexClass::Reflected,
+        points: [1.0, 5.0]
+            .map(|x| (DVec3::ZERO, Some(DVec2::new(x, 0.0))))
+            .to_vec(),
+    }];
+    let report = |results: &[VertexResult]| vertex_report(results, &truth, |_, _| true).unwrap();
+    // One of two solutions, a quarter of a pixel off; the sheet without an image says nothing.
+    let found = report(&[
+        answer(VertexState::Found, 1.25),
+        answer(VertexState::Hidden, 90.0),
+    ]);
+    assert_eq!((found.searched, found.recall), (1, Some(0.5)));
+    assert_eq!(found.offset_px.unwrap().max, 0.25);
+    assert_eq!(
+        (found.failed, found.discard.unwrap().false_drop),
+        (Some(0), 0)
+    );
+    // Both, on two sheets.
+    let found = report(&[
+        answer(VertexState::Found, 1.0),
+        answer(VertexState::Found, 5.5),
+    ]);
+    assert_eq!(
+        (found.recall, found.offset_px.unwrap().max),
+        (Some(1.0), 0.5)
+    );
+    // Where none is found, what is called hidden or unreflected is what there is.
+    let dropped = report(&[
+        answer(VertexState::Unreflected, 7.0),
+        answer(VertexState::Failed, 1.0),
+    ]);
+    assert_eq!(
+        (dropped.recall, dropped.offset_px.unwrap().max),
+        (Some(0.0), 2.0)
+    );
+    assert_eq!(dropped.discard.unwrap().false_drop, 1);
+}

@@ -9,7 +9,7 @@ use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder};
 use crate::refine::{self, Refine};
 use crate::search::path::path;
-use crate::search::{self, Instrumentation, Search};
+use crate::search::{self, Instrumentation, Search, Sheet};
 use crate::stage::Stage;
 use crate::stage::options::{Hidden, SearchOptions};
 use crate::stage::points::points_layout;
@@ -22,6 +22,8 @@ struct ObjectOrder {
     asked: search::Asked,
     stage: Stage,
     search: Box<dyn Search>,
+    /// All that the search looks for, mirrors outer.
+    sheets: Vec<Sheet>,
     refine: Box<dyn Refine>,
     /// What the search is like.
     properties: Properties,
@@ -54,10 +56,12 @@ pub(crate) fn prepare(
         points_layout: &points_layout,
         instrumentation: Instrumentation::Efforts,
     })?;
+    let sheets = Sheet::all(search.as_ref(), stage.world.mirrors.len());
     let refine = refinement.make(&refine::Context {
         gpu,
         drawn: *common,
         search: properties,
+        sheets: &sheets,
         continued: continues,
         stage: &stage,
         points_layout: &points_layout,
@@ -66,6 +70,7 @@ pub(crate) fn prepare(
         asked,
         stage,
         search,
+        sheets,
         refine,
         properties,
         has_previous: false,
@@ -98,8 +103,10 @@ impl Technique for ObjectOrder {
                 self.stage.record_maps(frame, mirror);
             }
             search.record_build(frame, &self.stage, mirror);
-            self.refine
-                .record(frame, &self.stage, search, mirror, variant);
+            for sheet in self.sheets.iter().filter(|sheet| sheet.mirror == mirror) {
+                self.refine
+                    .record(frame, &self.stage, search, *sheet, variant);
+            }
         }
         self.stage.finish(frame);
     }

@@ -7,7 +7,7 @@ use crate::gpu::{Gpu, Prefer};
 use crate::options::{OptionInfo, Options};
 use crate::parse;
 use crate::registry::{Asked, asked};
-use crate::search::{Context, Instrumentation, Search};
+use crate::search::{Context, Instrumentation, Search, Sheet};
 use crate::stage::Stage;
 use crate::stage::options::{Hidden, StageOptions};
 use crate::stage::points::{Points, points_layout};
@@ -44,7 +44,9 @@ pub(crate) fn stage(gpu: &Gpu, scene: &Scene, size: [u32; 2]) -> Stage {
 pub(crate) struct Searched {
     pub stage: Stage,
     pub search: Box<dyn Search>,
-    /// One batch a mirror: all vertices.
+    /// Mirrors outer.
+    pub sheets: Vec<Sheet>,
+    /// One batch a sheet: all vertices.
     pub batches: Vec<Points>,
 }
 
@@ -64,11 +66,14 @@ impl Searched {
             points_layout: &points_layout,
             instrumentation: Instrumentation::Efforts,
         });
+        let search = search.expect("can be made");
+        let sheets = Sheet::all(search.as_ref(), stage.world.mirrors.len());
         let vertices = stage.world.vertices();
         let batch = |_| Points::new(gpu, &points_layout, &stage.world.positions, vertices);
         let mut searched = Self {
-            batches: (0..stage.world.mirrors.len()).map(batch).collect(),
-            search: search.expect("can be made"),
+            batches: sheets.iter().map(batch).collect(),
+            sheets,
+            search,
             stage,
         };
         searched.run(gpu);
@@ -79,12 +84,12 @@ impl Searched {
     pub(crate) fn run(&mut self, gpu: &Gpu) {
         gpu.run(|frame| {
             self.stage.begin(frame, Variant::AllLayers);
-            for (mirror, points) in self.batches.iter().enumerate() {
-                self.stage.record_maps(frame, mirror);
-                self.search.record_build(frame, &self.stage, mirror);
+            for (sheet, points) in self.sheets.iter().zip(&self.batches) {
+                self.stage.record_maps(frame, sheet.mirror);
+                self.search.record_build(frame, &self.stage, sheet.mirror);
                 let variant = Variant::AllLayers;
                 self.search
-                    .record_search(frame, &self.stage, mirror, points, variant);
+                    .record_search(frame, &self.stage, *sheet, points, variant);
             }
         });
     }

@@ -13,7 +13,7 @@ use catoptric_scene::Scene;
 
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder};
-use crate::search::Search;
+use crate::search::{Search, Sheet};
 use crate::stage::Stage;
 use crate::stage::options::SearchOptions;
 use crate::stage::points::Efforts;
@@ -58,17 +58,18 @@ pub(crate) trait Refine {
         false
     }
 
-    /// Records, for one mirror, the searches and the virtual triangles.
+    /// Records, for one sheet of a mirror, the searches and the virtual triangles.
     fn record(
         &self,
         frame: &mut Recorder<'_>,
         stage: &Stage,
         search: &dyn Search,
-        mirror: usize,
+        sheet: Sheet,
         variant: Variant,
     );
 
-    /// Answers for the scene's vertices in the last frame, mirrors outer.
+    /// Answers for the scene's vertices in the last frame, mirrors outer; those of a vertex on all sheets
+    /// of a mirror in a row.
     fn vertices(&self, gpu: &Gpu, stage: &Stage) -> Vec<VertexResult>;
 
     /// All searches of the last frame.
@@ -96,6 +97,8 @@ pub(crate) struct Context<'a> {
     pub drawn: SearchOptions,
     /// What the search is like.
     pub search: Properties,
+    /// All that it looks for, mirrors outer.
+    pub sheets: &'a [Sheet],
     /// The search continues points behind the tangent plane.
     pub continued: bool,
     pub stage: &'a Stage,

@@ -1,17 +1,19 @@
-//! The scene's own vertices, searched once a frame and mirror: what every refinement starts from.
+//! The scene's own vertices, searched once a frame and sheet of a mirror: what every refinement starts
+//! from.
 
 use catoptric_frame::VertexResult;
 
 use super::Context;
 use crate::gpu::{Gpu, Recorder};
-use crate::search::Search;
+use crate::search::{Search, Sheet};
 use crate::stage::Stage;
 use crate::stage::points::{Efforts, Points};
 use crate::stage::variant::Variant;
 
-/// One batch a mirror: all vertices of all objects.
+/// One batch a sheet: all vertices of all objects.
 pub(crate) struct SceneVertices {
     pub batches: Vec<Points>,
+    pub sheets: Vec<Sheet>,
     /// The search tells of holes.
     has_holes: bool,
 }
@@ -24,7 +26,8 @@ impl SceneVertices {
             Points::new(context.gpu, layout, &world.positions, vertices)
         };
         Self {
-            batches: world.mirrors.iter().map(batch).collect(),
+            batches: context.sheets.iter().map(batch).collect(),
+            sheets: context.sheets.to_vec(),
             has_holes: context.search.has_holes,
         }
     }
@@ -36,33 +39,57 @@ impl SceneVertices {
         }
     }
 
-    /// Records the search on one mirror.
+    /// Records the search on one sheet.
     pub(crate) fn record(
         &self,
         frame: &mut Recorder<'_>,
         stage: &Stage,
         search: &dyn Search,
-        mirror: usize,
+        sheet: Sheet,
         variant: Variant,
     ) {
-        search.record_search(frame, stage, mirror, &self.batches[mirror], variant);
+        search.record_search(frame, stage, sheet, &self.batches[sheet.index], variant);
     }
 
-    /// Answers of the last frame, mirrors outer.
+    /// Answers of the last frame, mirrors outer; those of a vertex on all sheets of a mirror in a row.
     pub(crate) fn vertices(&self, gpu: &Gpu, stage: &Stage) -> Vec<VertexResult> {
-        let places: Vec<_> = stage.world.places().collect();
-        let batches = stage.world.mirrors.iter().zip(&self.batches);
-        batches
-            .flat_map(|(mirror, batch)| batch.results(gpu, mirror.id, &places, self.has_holes))
-            .collect()
+        let batches: Vec<_> = self.batches.iter().collect();
+        in_a_row(gpu, stage, &self.sheets, &batches, self.has_holes)
     }
 
-    /// What the searches of the last frame took.
+    /// What the searches of the last frame took. A vertex counts once, whatever the number of its
+    /// sheets.
     pub(crate) fn efforts(&self, gpu: &Gpu, stage: &Stage) -> Efforts {
         let mut total = Efforts::default();
-        for batch in &self.batches {
-            total.add(batch.total(gpu, stage.world.vertices()));
+        for (sheet, batch) in self.sheets.iter().zip(&self.batches) {
+            let mut efforts = batch.total(gpu, stage.world.vertices());
+            efforts.searched *= u64::from(sheet.number == 0);
+            total.add(efforts);
         }
         total
     }
+}
+
+/// The answers for the scene's vertices on each sheet, mirrors outer, those of a vertex on all sheets
+/// of a mirror in a row.
+pub(crate) fn in_a_row(
+    gpu: &Gpu,
+    stage: &Stage,
+    sheets: &[Sheet],
+    batches: &[&Points],
+    has_holes: bool,
+) -> Vec<VertexResult> {
+    let places: Vec<_> = stage.world.places().collect();
+    let mut all = Vec::new();
+    for of_mirror in sheets.chunk_by(|a, b| a.mirror == b.mirror) {
+        let id = stage.world.mirrors[of_mirror[0].mirror].id;
+        let lists = of_mirror
+            .iter()
+            .map(|sheet| batches[sheet.index].results(gpu, id, &places, has_holes));
+        let lists: Vec<_> = lists.collect();
+        for vertex in 0..places.len() {
+            all.extend(lists.iter().map(|list| list[vertex]));
+        }
+    }
+    all
 }

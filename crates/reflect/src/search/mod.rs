@@ -8,6 +8,7 @@ pub(crate) mod newton;
 pub(crate) mod path;
 pub(crate) mod ray_hierarchy;
 pub(crate) mod reflector_cubemap;
+pub(crate) mod sheet;
 mod start;
 
 use catoptric_scene::Scene;
@@ -20,6 +21,7 @@ use crate::stage::options::{Hidden, SearchOptions};
 use crate::stage::points::Points;
 use crate::stage::variant::Variant;
 use crate::technique::Properties;
+pub(crate) use sheet::Sheet;
 
 /// A search with its options settled, not yet made ready for a scene.
 pub(crate) trait Recipe {
@@ -80,17 +82,22 @@ pub(crate) trait Search {
         true
     }
 
+    /// How many reflections of a vertex it tells apart on a mirror (an index).
+    fn sheets(&self, _mirror: usize) -> usize {
+        1
+    }
+
     /// Records what is made once a frame from the maps of a mirror (an index), before any search on
     /// it.
     fn record_build(&self, _: &mut Recorder<'_>, _: &Stage, _mirror: usize) {}
 
-    /// Records the search of a batch on one mirror, as the pass `search`. It is the mirror of the
-    /// latest [`Search::record_build`].
+    /// Records the search of a batch on one sheet of a mirror, as the pass `search`. It is the mirror
+    /// of the latest [`Search::record_build`].
     fn record_search(
         &self,
         frame: &mut Recorder<'_>,
         stage: &Stage,
-        mirror: usize,
+        sheet: Sheet,
         points: &Points,
         variant: Variant,
     );

@@ -10,7 +10,7 @@ use glam::Vec3;
 use crate::diagnostics::Visit;
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, storage_bytes};
-use crate::search::{Asked, Context, Instrumentation};
+use crate::search::{Asked, Context, Instrumentation, Sheet};
 use crate::stage::Stage;
 use crate::stage::options::Hidden;
 use crate::stage::points::{Dispatch, Found, Points, Range, points_layout};
@@ -51,11 +51,14 @@ pub(crate) fn path(
     let position = storage_bytes(gpu, bytemuck::cast_slice(&point.extend(1.0).to_array()));
     let dispatch = Dispatch::Direct(1);
     let points = Points::with_range(gpu, &points_layout, &position, MOST, range, dispatch);
+    let sheets = Sheet::all(search.as_ref(), stage.world.mirrors.len());
+    let first = sheets.into_iter().find(|sheet| sheet.mirror == mirror);
+    let first = first.expect("every mirror has a sheet");
     gpu.run(|frame| {
         stage.begin(frame, Variant::AllLayers);
         stage.record_maps(frame, mirror);
         search.record_build(frame, stage, mirror);
-        search.record_search(frame, stage, mirror, &points, Variant::AllLayers);
+        search.record_search(frame, stage, first, &points, Variant::AllLayers);
     });
     let records = points.read_found(gpu, MOST).into_iter().skip(1);
     let visits = records.take_while(|record| record.distance == 1.0);

@@ -6,7 +6,7 @@
 use catoptric_scene::{Mirror, View};
 use glam::{DVec2, Vec2};
 
-use super::{Context, Pipelines, Search};
+use super::{Context, Pipelines, Search, Sheet};
 use crate::error::ReflectError;
 use crate::gpu::{
     Gpu, Kernel, Recorder, Slot, compute, group, layout, module, set_uniform, storage_zeros,
@@ -64,12 +64,12 @@ impl Search for FromStart {
         &self,
         frame: &mut Recorder<'_>,
         stage: &Stage,
-        mirror: usize,
+        sheet: Sheet,
         points: &Points,
         variant: Variant,
     ) {
-        let own = &self.starts.groups[mirror];
-        (self.pipelines).record(frame, (stage, mirror), points, own, variant);
+        let own = &self.starts.groups[sheet.mirror];
+        (self.pipelines).record(frame, (stage, sheet.mirror), points, own, variant);
     }
 }
 

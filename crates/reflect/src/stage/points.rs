@@ -54,6 +54,8 @@ impl Found {
     pub const HIDDEN: u32 = 1;
     /// `state`: the search has no answer.
     pub const FAILED: u32 = 2;
+    /// `state`: reflected beyond the rim of an open mirror.
+    pub const UNREFLECTED: u32 = 3;
 }
 
 /// How many workgroups a search of a batch takes.
@@ -295,6 +297,7 @@ impl Points {
                     Found::FOUND => VertexState::Found,
                     Found::HIDDEN => VertexState::Hidden,
                     Found::FAILED => VertexState::Failed,
+                    Found::UNREFLECTED => VertexState::Unreflected,
                     state => unreachable!("no search writes the state {state}"),
                 },
                 at: found.at,

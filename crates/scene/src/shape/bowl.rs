@@ -70,8 +70,7 @@ impl Bowl {
 
 impl MirrorShape for Bowl {
     fn intersect(&self, origin: DVec3, dir: DVec3, t_min: f64) -> Option<SurfaceHit> {
-        let rim = self.half_angle.cos();
-        self.hit(origin, dir, t_min, |outward| outward.dot(self.axis) >= rim)
+        self.hit(origin, dir, t_min, |outward| self.covers(outward))
     }
 
     fn normal_at(&self, point: DVec3) -> Option<DVec3> {
@@ -131,6 +130,10 @@ impl MirrorShape for Bowl {
 
     fn from_center(&self, direction: DVec3) -> Option<SurfaceHit> {
         self.hit(self.center, direction, 0.0, |_| true)
+    }
+
+    fn covers(&self, direction: DVec3) -> bool {
+        direction.dot(self.axis) >= self.half_angle.cos()
     }
 
     fn numbers(&self) -> Vec<f64> {

@@ -105,6 +105,12 @@ pub trait MirrorShape {
         self.intersect(self.center(), direction, 0.0)
     }
 
+    /// Whether the mirror itself lies in a unit direction from the centre, not only the closed surface that
+    /// it was cut from ([`MirrorShape::facing`]).
+    fn covers(&self, _direction: DVec3) -> bool {
+        true
+    }
+
     /// All numbers that give the surface, in a fixed order: they go into the scene's hash. None
     /// for a mesh, whose triangles do.
     fn numbers(&self) -> Vec<f64>;

@@ -29,7 +29,8 @@ use crate::gpu::{
     Gpu, Kernel, Recorder, Slot, compute, group, layout, module, storage, storage_bytes,
 };
 use crate::options::{options, words};
-use crate::search::Search;
+use crate::refine::scene_vertices::in_a_row;
+use crate::search::{Search, Sheet};
 use crate::stage::Stage;
 use crate::stage::options::Depth;
 use crate::stage::points::{Efforts, Points};
@@ -155,15 +156,17 @@ struct Interpolation {
     places: wgpu::Buffer,
     /// Of [`forest::Cell`].
     cells: wgpu::Buffer,
-    mirrors: Vec<OnMirror>,
+    sheets: Vec<Sheet>,
+    /// One a sheet.
+    on_sheets: Vec<OnSheet>,
     /// What the mirrors' searches were made for.
     scene: Scene,
     /// The searches are new: there are no answers of a previous frame.
     fresh: bool,
 }
 
-/// Searched and interpolated points on one mirror.
-struct OnMirror {
+/// Searched and interpolated points on one sheet of a mirror.
+struct OnSheet {
     searched: Points,
     settled: Option<Settled>,
     /// All vertices of the scene; its answers are written by the interpolation.
@@ -222,11 +225,12 @@ impl Interpolation {
             poses,
             settling,
             polishes: options.polishes(),
-            mirrors: Vec::new(),
+            sheets: context.sheets.to_vec(),
+            on_sheets: Vec::new(),
             scene,
             fresh: true,
         };
-        made.mirrors = made.searches(gpu, stage);
+        made.on_sheets = made.searches(gpu, stage);
         Ok(made)
     }
 
@@ -251,20 +255,20 @@ impl Interpolation {
     }
 
     /// Makes what is searched on each mirror, for objects as they stand.
-    fn searches(&self, gpu: &Gpu, stage: &Stage) -> Vec<OnMirror> {
+    fn searches(&self, gpu: &Gpu, stage: &Stage) -> Vec<OnSheet> {
         let positions = storage_bytes(gpu, bytemuck::cast_slice(&self.positions()));
-        let mirrors = self.scene.mirrors.iter();
-        mirrors
-            .map(|_| self.on_mirror(gpu, stage, &positions))
+        let sheets = self.sheets.iter();
+        sheets
+            .map(|_| self.on_sheet(gpu, stage, &positions))
             .collect()
     }
 
-    fn on_mirror(&self, gpu: &Gpu, stage: &Stage, positions: &wgpu::Buffer) -> OnMirror {
+    fn on_sheet(&self, gpu: &Gpu, stage: &Stage, positions: &wgpu::Buffer) -> OnSheet {
         let world = &stage.world;
         let layout = &self.points_layout;
         let (searched, settled) = match &self.settling {
             Some(settling) => {
-                let (points, settled) = settling.on_mirror(gpu, layout, positions, &self.cells);
+                let (points, settled) = settling.on_sheet(gpu, layout, positions, &self.cells);
                 (points, Some(settled))
             }
             None => {
@@ -285,7 +289,7 @@ impl Interpolation {
         let resources = buffers.iter().map(|buffer| buffer.as_entire_binding());
         let resources: Vec<_> = resources.collect();
         let found = interpolated.found.as_entire_binding();
-        OnMirror {
+        OnSheet {
             interpolate: group(gpu, &self.layout, &resources),
             draw: group(gpu, &self.raster.own_layout, &[found]),
             searched,
@@ -304,7 +308,7 @@ impl Refine for Interpolation {
             && mirrors.all(|(a, b)| a.shape == b.shape);
         if !still {
             self.scene = now.clone();
-            self.mirrors = self.searches(gpu, stage);
+            self.on_sheets = self.searches(gpu, stage);
             self.fresh = true;
         }
     }
@@ -316,9 +320,9 @@ impl Refine for Interpolation {
     fn begin_frame(&mut self, gpu: &Gpu, _stage: &Stage, warm: bool) {
         let fresh = std::mem::take(&mut self.fresh);
         let warm = warm && !fresh;
-        for OnMirror {
+        for OnSheet {
             searched, settled, ..
-        } in &self.mirrors
+        } in &self.on_sheets
         {
             match settled {
                 Some(_) => searched.set_list_warm(gpu, warm),
@@ -332,58 +336,58 @@ impl Refine for Interpolation {
         frame: &mut Recorder<'_>,
         stage: &Stage,
         search: &dyn Search,
-        mirror: usize,
+        sheet: Sheet,
         variant: Variant,
     ) {
         let world = &stage.world;
-        let on_mirror = &self.mirrors[mirror];
-        let searched = &on_mirror.searched;
-        match (&self.settling, &on_mirror.settled) {
+        let on_sheet = &self.on_sheets[sheet.index];
+        let searched = &on_sheet.searched;
+        match (&self.settling, &on_sheet.settled) {
             (Some(settling), Some(settled)) => {
-                settling.record(frame, stage, search, (mirror, searched, settled), variant);
+                settling.record(frame, stage, search, (sheet, searched, settled), variant);
             }
-            _ => search.record_search(frame, stage, mirror, searched, variant),
+            _ => search.record_search(frame, stage, sheet, searched, variant),
         }
         frame.compute("interpolate", |pass| {
             pass.set_pipeline(&self.interpolate);
             pass.set_bind_group(0, &world.view_group, &[]);
             if self.polishes {
-                pass.set_bind_group(1, &stage.maps().mirror_groups[mirror], &[]);
+                pass.set_bind_group(1, &stage.maps().mirror_groups[sheet.mirror], &[]);
             }
-            pass.set_bind_group(2, &on_mirror.interpolate, &[]);
-            on_mirror.interpolated.run(pass, &self.interpolate);
+            pass.set_bind_group(2, &on_sheet.interpolate, &[]);
+            on_sheet.interpolated.run(pass, &self.interpolate);
         });
-        let found = &on_mirror.draw;
+        let found = &on_sheet.draw;
         self.raster
-            .record(frame, stage, mirror, found, variant, |pass| {
+            .record(frame, stage, sheet.mirror, found, variant, |pass| {
                 pass.draw(0..world.corners, 0..1);
             });
     }
 
     fn vertices(&self, gpu: &Gpu, stage: &Stage) -> Vec<VertexResult> {
-        let places: Vec<_> = stage.world.places().collect();
-        let mirrors = stage.world.mirrors.iter().zip(&self.mirrors);
-        mirrors
-            .flat_map(|(mirror, on)| on.interpolated.results(gpu, mirror.id, &places, false))
-            .collect()
+        let batches: Vec<_> = self.on_sheets.iter().map(|on| &on.interpolated).collect();
+        in_a_row(gpu, stage, &self.sheets, &batches, false)
     }
 
     fn efforts(&self, gpu: &Gpu, _stage: &Stage) -> Efforts {
         let records = self.forest.records();
         let mut total = Efforts::default();
-        for mirror in &self.mirrors {
-            total.add(match &mirror.settled {
-                Some(settled) => settled.efforts(gpu, &mirror.searched, records),
-                None => mirror.searched.total(gpu, records),
-            });
+        for (sheet, on_sheet) in self.sheets.iter().zip(&self.on_sheets) {
+            let mut efforts = match &on_sheet.settled {
+                Some(settled) => settled.efforts(gpu, &on_sheet.searched, records),
+                None => on_sheet.searched.total(gpu, records),
+            };
+            efforts.searched *= u64::from(sheet.number == 0);
+            total.add(efforts);
         }
         total
     }
 
     fn triangles(&self, _gpu: &Gpu, stage: &Stage) -> Triangles {
-        let drawn = u64::from(stage.world.corners / 3) * self.mirrors.len() as u64;
+        let triangles = u64::from(stage.world.corners / 3);
+        let drawn = triangles * self.on_sheets.len() as u64;
         Triangles {
-            input: drawn,
+            input: triangles * stage.world.mirrors.len() as u64,
             drawn,
             by_level: vec![drawn],
             unfinished: 0,

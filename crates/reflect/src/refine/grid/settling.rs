@@ -11,7 +11,7 @@ use crate::gpu::{
     storage_zeros, uniform,
 };
 use crate::refine::Context;
-use crate::search::Search;
+use crate::search::{Search, Sheet};
 use crate::stage::Stage;
 use crate::stage::points::{Dispatch, Efforts, Points, read};
 use crate::stage::variant::Variant;
@@ -48,7 +48,7 @@ pub(super) struct Settling {
     points: u32,
 }
 
-/// What a mirror's frame has settled.
+/// What a sheet's frame has settled.
 pub(super) struct Settled {
     /// What became of each cell.
     pub states: wgpu::Buffer,
@@ -107,8 +107,8 @@ impl Settling {
         })
     }
 
-    /// A mirror's batch of all records, and what settles which of them are searched. `cells`: of [`super::forest::Cell`].
-    pub(super) fn on_mirror(
+    /// A sheet's batch of all records, and what settles which of them are searched. `cells`: of [`super::forest::Cell`].
+    pub(super) fn on_sheet(
         &self,
         gpu: &Gpu,
         points_layout: &wgpu::BindGroupLayout,
@@ -146,13 +146,13 @@ impl Settling {
         (points, settled)
     }
 
-    /// Records searches on one mirror until all cells are settled.
+    /// Records searches on one sheet until all cells are settled.
     pub(super) fn record(
         &self,
         frame: &mut Recorder<'_>,
         stage: &Stage,
         search: &dyn Search,
-        (mirror, points, settled): (usize, &Points, &Settled),
+        (sheet, points, settled): (Sheet, &Points, &Settled),
         variant: Variant,
     ) {
         let view = &stage.world.view_group;
@@ -166,7 +166,7 @@ impl Settling {
                 run(pass, &self.ask, *count);
                 run(pass, &self.close, 1);
             });
-            search.record_search(frame, stage, mirror, points, variant);
+            search.record_search(frame, stage, sheet, points, variant);
             if index + 1 < self.levels.len() {
                 frame.compute("refine", |pass| {
                     pass.set_bind_group(0, view, &[]);

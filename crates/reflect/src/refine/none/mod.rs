@@ -6,7 +6,7 @@ use super::scene_vertices::SceneVertices;
 use super::{Context, Recipe, Refine};
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder, Slot, group};
-use crate::search::Search;
+use crate::search::{Search, Sheet};
 use crate::stage::Stage;
 use crate::stage::points::Efforts;
 use crate::stage::raster::Raster;
@@ -50,14 +50,14 @@ impl Refine for AsItIs {
         frame: &mut Recorder<'_>,
         stage: &Stage,
         search: &dyn Search,
-        mirror: usize,
+        sheet: Sheet,
         variant: Variant,
     ) {
         self.scene_vertices
-            .record(frame, stage, search, mirror, variant);
-        let found = &self.found[mirror];
+            .record(frame, stage, search, sheet, variant);
+        let found = &self.found[sheet.index];
         self.raster
-            .record(frame, stage, mirror, found, variant, |pass| {
+            .record(frame, stage, sheet.mirror, found, variant, |pass| {
                 pass.draw(0..stage.world.corners, 0..1);
             });
     }
@@ -71,9 +71,10 @@ impl Refine for AsItIs {
     }
 
     fn triangles(&self, _gpu: &Gpu, stage: &Stage) -> Triangles {
-        let drawn = u64::from(stage.world.corners / 3) * self.scene_vertices.batches.len() as u64;
+        let triangles = u64::from(stage.world.corners / 3);
+        let drawn = triangles * self.scene_vertices.batches.len() as u64;
         Triangles {
-            input: drawn,
+            input: triangles * stage.world.mirrors.len() as u64,
             drawn,
             by_level: vec![drawn],
             unfinished: 0,

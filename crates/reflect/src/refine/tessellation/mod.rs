@@ -25,7 +25,7 @@ use super::scene_vertices::SceneVertices;
 use super::{Context, Refine};
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder};
-use crate::search::Search;
+use crate::search::{Search, Sheet};
 use crate::stage::Stage;
 use crate::stage::options::Hidden;
 use crate::stage::points::{Efforts, Found};
@@ -45,7 +45,8 @@ pub(crate) struct Leaf {
     /// What their searches came to: one of `Found::…`.
     #[cfg_attr(not(test), expect(dead_code, reason = "tests check `drawn` by them"))]
     pub states: [u32; 3],
-    /// It is drawn: all corners are reflected or, with `hidden=extend`, one is and none failed.
+    /// It is drawn: a corner is reflected and the others are, too, or would be beyond the rim of an open
+    /// mirror; with `hidden=extend` the others may be anything but failed.
     pub drawn: bool,
 }
 
@@ -83,30 +84,31 @@ impl Tessellation {
         })
     }
 
-    /// The finished triangles of the last frame's `mirror`, chunk by chunk, made again: the
+    /// The finished triangles of a sheet in the last frame, chunk by chunk, made again: the
     /// buffers only ever hold one chunk.
     pub(crate) fn leaves(
         &self,
         gpu: &Gpu,
         stage: &Stage,
         search: &dyn Search,
-        mirror: usize,
+        sheet: Sheet,
         mut each: impl FnMut(Leaf),
     ) {
-        let answers = (self.scene_vertices.batches[mirror]).read_found(gpu, stage.world.vertices());
+        let batch = &self.scene_vertices.batches[sheet.index];
+        let answers = batch.read_found(gpu, stage.world.vertices());
         let vertices: Vec<_> = (stage.world.scene.objects.iter())
             .flat_map(|object| object.mesh.positions.iter().copied())
             .collect();
         let totals = gpu.read_buffer(self.passes.totals_buffer());
         gpu.run(|frame| {
-            stage.record_maps(frame, mirror);
-            search.record_build(frame, stage, mirror);
+            stage.record_maps(frame, sheet.mirror);
+            search.record_build(frame, stage, sheet.mirror);
         });
         for chunk in 0..self.plan.chunks().count() {
             gpu.run(|frame| {
                 let variant = Variant::Color;
                 self.passes
-                    .record(frame, stage, search, [mirror, chunk], variant);
+                    .record(frame, stage, search, (sheet, chunk), variant);
             });
             let made = self.passes.read(gpu, self.plan.level);
             for piece in made.pieces {
@@ -134,11 +136,12 @@ impl Tessellation {
 
     /// Twin of `usable` in `stage/virtual.wesl`, but for what lies behind the eye's plane.
     fn is_drawn(&self, states: [u32; 3]) -> bool {
-        if self.extends {
-            states.contains(&Found::FOUND) && !states.contains(&Found::FAILED)
-        } else {
-            states.iter().all(|state| *state == Found::FOUND)
-        }
+        let goes = |state: &u32| match *state {
+            Found::FAILED => false,
+            Found::HIDDEN => self.extends,
+            _ => true,
+        };
+        states.contains(&Found::FOUND) && states.iter().all(goes)
     }
 }
 
@@ -157,15 +160,15 @@ impl Refine for Tessellation {
         frame: &mut Recorder<'_>,
         stage: &Stage,
         search: &dyn Search,
-        mirror: usize,
+        sheet: Sheet,
         variant: Variant,
     ) {
         self.scene_vertices
-            .record(frame, stage, search, mirror, variant);
+            .record(frame, stage, search, sheet, variant);
         for chunk in 0..self.plan.chunks().count() {
             self.passes
-                .record(frame, stage, search, [mirror, chunk], variant);
-            self.passes.draw(frame, stage, mirror, variant);
+                .record(frame, stage, search, (sheet, chunk), variant);
+            self.passes.draw(frame, stage, sheet, variant);
         }
     }
 
@@ -185,12 +188,12 @@ impl Refine for Tessellation {
         efforts
     }
 
-    fn triangles(&self, gpu: &Gpu, _stage: &Stage) -> Triangles {
+    fn triangles(&self, gpu: &Gpu, stage: &Stage) -> Triangles {
         let totals = self.passes.totals(gpu);
         let by_level = totals.by_level[..=self.plan.level as usize].iter();
         let by_level: Vec<_> = by_level.map(|count| u64::from(*count)).collect();
         Triangles {
-            input: u64::from(self.plan.triangles) * self.scene_vertices.batches.len() as u64,
+            input: u64::from(self.plan.triangles) * stage.world.mirrors.len() as u64,
             drawn: by_level.iter().sum(),
             by_level,
             unfinished: totals.unfinished.into(),
@@ -209,10 +212,10 @@ impl Refine for Tessellation {
             return None;
         }
         let objects = junctions::objects(&stage.world.scene);
-        let mirrors = 0..self.scene_vertices.batches.len();
-        let count = mirrors.map(|mirror| {
+        let sheets = self.scene_vertices.sheets.iter();
+        let count = sheets.map(|sheet| {
             let mut edges = junctions::Edges::default();
-            self.leaves(gpu, stage, search, mirror, |leaf| {
+            self.leaves(gpu, stage, search, *sheet, |leaf| {
                 if leaf.drawn {
                     edges.add(objects[leaf.piece.source as usize], leaf.corners);
                 }

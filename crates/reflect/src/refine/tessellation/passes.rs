@@ -12,7 +12,7 @@ use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder, Slot, dispatch_size, group, uniform};
 use crate::refine::Context;
 use crate::refine::scene_vertices::SceneVertices;
-use crate::search::Search;
+use crate::search::{Search, Sheet};
 use crate::stage::Stage;
 use crate::stage::points::{Dispatch, Found, Points, read};
 use crate::stage::raster::Raster;
@@ -29,7 +29,7 @@ pub(super) struct Passes {
     raster: Raster,
     /// One a chunk: workgroups and group 3 of `begin`.
     chunks: Vec<(u32, wgpu::BindGroup)>,
-    /// Group 2 of `classify` and `judge`, one a mirror.
+    /// Group 2 of `classify` and `judge`, one a sheet.
     answers: Vec<wgpu::BindGroup>,
     /// Group 2 of `split`.
     vertices: wgpu::BindGroup,
@@ -37,7 +37,7 @@ pub(super) struct Passes {
     steps: Vec<[wgpu::BindGroup; 3]>,
     judged: wgpu::BindGroup,
     tallied: wgpu::BindGroup,
-    /// Group 3 of the raster pass, one a mirror.
+    /// Group 3 of the raster pass, one a sheet.
     drawn: Vec<wgpu::BindGroup>,
 }
 
@@ -193,13 +193,13 @@ impl Passes {
         totals.expect("the buffer holds the totals")
     }
 
-    /// Records the loop over one chunk on one mirror.
+    /// Records the loop over one chunk on one sheet.
     pub(super) fn record(
         &self,
         frame: &mut Recorder<'_>,
         stage: &Stage,
         search: &dyn Search,
-        [mirror, chunk]: [usize; 2],
+        (sheet, chunk): (Sheet, usize),
         variant: Variant,
     ) {
         let counts = variant == Variant::AllLayers;
@@ -215,8 +215,8 @@ impl Passes {
             let groups = LEVEL_STRIDE * u64::from(level);
             frame.compute("refine", |pass| {
                 pass.set_bind_group(0, &stage.world.view_group, &[]);
-                pass.set_bind_group(1, &stage.maps().mirror_groups[mirror], &[]);
-                pass.set_bind_group(2, &self.answers[mirror], &[]);
+                pass.set_bind_group(1, &stage.maps().mirror_groups[sheet.mirror], &[]);
+                pass.set_bind_group(2, &self.answers[sheet.index], &[]);
                 pass.set_bind_group(3, classify, &[]);
                 pass.set_pipeline(&self.kernels.classify.kernel);
                 pass.dispatch_workgroups_indirect(&self.buffers.levels, groups);
@@ -232,7 +232,7 @@ impl Passes {
                 });
                 pass.dispatch_workgroups_indirect(&self.buffers.levels, groups);
             });
-            search.record_search(frame, stage, mirror, &self.points, variant);
+            search.record_search(frame, stage, sheet, &self.points, variant);
             if counts {
                 frame.compute("count", |pass| {
                     pass.set_bind_group(3, &self.tallied, &[]);
@@ -244,8 +244,8 @@ impl Passes {
         if counts && self.judges {
             frame.compute("count", |pass| {
                 pass.set_bind_group(0, &stage.world.view_group, &[]);
-                pass.set_bind_group(1, &stage.maps().mirror_groups[mirror], &[]);
-                pass.set_bind_group(2, &self.answers[mirror], &[]);
+                pass.set_bind_group(1, &stage.maps().mirror_groups[sheet.mirror], &[]);
+                pass.set_bind_group(2, &self.answers[sheet.index], &[]);
                 pass.set_bind_group(3, &self.judged, &[]);
                 pass.set_pipeline(&self.kernels.judge.kernel);
                 let groups = LEVEL_STRIDE * u64::from(self.level);
@@ -259,14 +259,20 @@ impl Passes {
         &self,
         frame: &mut Recorder<'_>,
         stage: &Stage,
-        mirror: usize,
+        sheet: Sheet,
         variant: Variant,
     ) {
         let arguments = LEVEL_STRIDE * u64::from(self.level) + DRAW;
-        self.raster
-            .record(frame, stage, mirror, &self.drawn[mirror], variant, |pass| {
+        self.raster.record(
+            frame,
+            stage,
+            sheet.mirror,
+            &self.drawn[sheet.index],
+            variant,
+            |pass| {
                 pass.draw_indirect(&self.buffers.levels, arguments);
-            });
+            },
+        );
     }
 
     /// Steps, evaluations and node tests of all new points of the last frame.

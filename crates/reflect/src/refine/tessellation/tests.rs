@@ -42,6 +42,7 @@ impl Tessellated {
             gpu,
             drawn: asked.common,
             search: asked.recipe.properties(),
+            sheets: &searched.sheets,
             continued: asked.common.hidden == Hidden::Extend,
             stage: &searched.stage,
             points_layout: &points_layout(gpu),
@@ -50,12 +51,12 @@ impl Tessellated {
             Tessellation::within(&context, rule, binding).expect("fits the device");
         tessellation.begin_frame(gpu, &searched.stage, false);
         gpu.run(|frame| {
-            for mirror in 0..searched.stage.world.mirrors.len() {
+            for sheet in &searched.sheets {
                 let search = searched.search.as_ref();
                 let variant = Variant::AllLayers;
-                searched.stage.record_maps(frame, mirror);
-                search.record_build(frame, &searched.stage, mirror);
-                tessellation.record(frame, &searched.stage, search, mirror, variant);
+                searched.stage.record_maps(frame, sheet.mirror);
+                search.record_build(frame, &searched.stage, sheet.mirror);
+                tessellation.record(frame, &searched.stage, search, *sheet, variant);
             }
         });
         Self {
@@ -65,12 +66,13 @@ impl Tessellated {
         }
     }
 
-    /// The finished triangles of a mirror.
-    pub(crate) fn leaves(&self, gpu: &Gpu, mirror: usize) -> Vec<Leaf> {
+    /// The finished triangles of a sheet.
+    pub(crate) fn leaves(&self, gpu: &Gpu, sheet: usize) -> Vec<Leaf> {
         let mut leaves = Vec::new();
+        let sheet = self.searched.sheets[sheet];
         let search = self.searched.search.as_ref();
         let stage = &self.searched.stage;
-        (self.tessellation).leaves(gpu, stage, search, mirror, |leaf| leaves.push(leaf));
+        (self.tessellation).leaves(gpu, stage, search, sheet, |leaf| leaves.push(leaf));
         leaves
     }
 }

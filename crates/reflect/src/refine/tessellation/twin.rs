@@ -68,7 +68,7 @@ impl Tessellation<'_> {
         triangle.error = edges[0].max(edges[1]).max(self.edge_error(c, a));
         let given_up = [a, b, c]
             .iter()
-            .all(|point| point.answer.state == Found::HIDDEN);
+            .all(|point| [Found::HIDDEN, Found::UNREFLECTED].contains(&point.answer.state));
         triangle.split = !given_up && self.threshold < 1.0 && triangle.error >= self.threshold;
     }
 
@@ -163,7 +163,8 @@ mod tests {
         let points = Points::new(gpu, &points_layout(gpu), &buffer, count);
         gpu.run(|frame| {
             let variant = Variant::Color;
-            (searched.search).record_search(frame, &searched.stage, mirror, &points, variant);
+            let sheet = searched.sheets[mirror];
+            (searched.search).record_search(frame, &searched.stage, sheet, &points, variant);
         });
         points.read_found(gpu, count)
     }

@@ -16,7 +16,7 @@ mod twin;
 use catoptric_scene::Scene;
 use encase::ShaderType;
 
-use super::{Context, Pipelines, Recipe, Search};
+use super::{Context, Pipelines, Recipe, Search, Sheet};
 use crate::error::ReflectError;
 use crate::gpu::{Recorder, Slot, group, layout, uniform, view};
 use crate::options::{options, words};
@@ -152,11 +152,11 @@ impl Search for Descent {
         &self,
         frame: &mut Recorder<'_>,
         stage: &Stage,
-        mirror: usize,
+        sheet: Sheet,
         points: &Points,
         variant: Variant,
     ) {
-        (self.pipelines).record(frame, (stage, mirror), points, &self.own, variant);
+        (self.pipelines).record(frame, (stage, sheet.mirror), points, &self.own, variant);
     }
 }
 

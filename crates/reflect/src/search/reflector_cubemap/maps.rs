@@ -29,7 +29,8 @@ struct Texel {
 pub(crate) struct Maps {
     /// Texels along an edge of a face.
     pub size: u32,
-    /// World-space offset from the mirror's centre; w is 0.
+    /// World-space offset from the mirror's centre; w is 1 on the mirror and 0 beyond the rim of an open
+    /// one, on the closed surface that it was cut from.
     pub positions: Vec<[f32; 4]>,
     /// Unit, on the reflecting side; w is 0.
     pub normals: Vec<[f32; 4]>,
@@ -71,11 +72,13 @@ impl Maps {
             (None, 0) => of_surface(shape, size),
             (None, segments) => of_mesh(&tessellated(shape, segments), shape.center(), size),
         };
-        let four = |v: DVec3| [v.x as f32, v.y as f32, v.z as f32, 0.0];
+        let four = |v: DVec3, w| [v.x as f32, v.y as f32, v.z as f32, w];
+        let covered = |texel: &Texel| f32::from(shape.covers(texel.position.normalize()));
+        let position = |texel: &Texel| four(texel.position, covered(texel));
         Self {
             size,
-            positions: texels.iter().map(|texel| four(texel.position)).collect(),
-            normals: texels.iter().map(|texel| four(texel.normal)).collect(),
+            positions: texels.iter().map(position).collect(),
+            normals: texels.iter().map(|texel| four(texel.normal, 0.0)).collect(),
             facing: match facing {
                 Facing::Outwards => 1.0,
                 Facing::Inwards => -1.0,
@@ -321,7 +324,20 @@ mod tests {
         };
         let outside = Maps::new(&Sphere { center, radius }, &options());
         let inside = Maps::new(&bowl, &options());
-        assert_eq!(inside.positions, outside.positions);
+        let places = |maps: &Maps| -> Vec<_> {
+            let positions = maps.positions.iter();
+            positions
+                .map(|position| Vec3::from_slice(position))
+                .collect()
+        };
+        assert_eq!(places(&inside), places(&outside));
+        for position in &inside.positions {
+            let direction = Vec3::from_slice(position).as_dvec3().normalize();
+            let angle = direction.angle_between(bowl.axis);
+            // As far as f32 knows a direction.
+            let decided = (angle - bowl.half_angle).abs() > 1e-6;
+            assert!(!decided || (position[3] == 1.0) == (angle < bowl.half_angle));
+        }
         let turned = outside.normals.iter().map(|normal| normal.map(|c| -c));
         assert!(inside.normals.iter().copied().eq(turned));
         assert_eq!([outside.facing, inside.facing], [1.0, -1.0]);

@@ -11,7 +11,7 @@ pub(crate) mod twin;
 use catoptric_scene::{Mirror, Scene, Shape};
 use encase::ShaderType;
 
-use super::{Context, Pipelines, Recipe, Search};
+use super::{Context, Pipelines, Recipe, Search, Sheet};
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder, Slot, group, layout, texture_with, uniform};
 use crate::options::{options, words};
@@ -45,6 +45,18 @@ words! {
     }
 }
 
+words! {
+    /// Which reflections of a vertex in a concave mirror are searched.
+    pub(crate) enum Sheets {
+        /// The one that the walk as published finds: the inverted image.
+        First = "first",
+        /// The upright image by a second walk, and the inverted one.
+        Extrema = "extrema",
+        /// Also those between the two focal points, by Newton's method.
+        All = "all",
+    }
+}
+
 options! {
     /// The search, as its options describe it.
     pub(crate) struct ReflectorCubemap {
@@ -58,6 +70,10 @@ options! {
         /// the projected bisector: of first order at the point reached, or between the places where the
         /// rays from the centre along normal and bisector meet the face
         projection: Projection,
+        /// in a concave mirror: the inverted image alone, also the upright one by a walk the other way, or
+        /// also the one between its focal points, a saddle of the path's length, by Newton's method; but
+        /// for the first, a search that has not arrived has no answer
+        sheets: Sheets,
         /// segments around the tessellated mirror that the maps are drawn from, as the paper draws them;
         /// 0: each texel has the mirror's exact point and normal (a mesh's its triangles' in any case)
         tessellation: u32 = 0 in 0..=1024,
@@ -126,6 +142,41 @@ struct Settings {
     from_eye: u32,
     /// 1: the mirror's normals point away from its centre, −1: towards it.
     facing: f32,
+    /// Sign of the field that a walk follows.
+    sense: f32,
+    /// Which images are looked for: one of `Image::…`.
+    image: u32,
+    /// Greatest error E of an answer.
+    accept: f32,
+}
+
+/// Which image of a vertex a search looks for, as `image` in `reflector_cubemap.wesl`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Image {
+    /// The only one of a convex mirror, or the inverted one of a concave mirror.
+    Published = 0,
+    /// The upright one of a concave mirror.
+    Upright = 1,
+    /// The one between its focal points.
+    Between = 2,
+}
+
+/// Greatest error E of an answer where walks must have arrived: bisector and normal differ by 0.0045
+/// radians.
+const ARRIVED: f32 = 5e-6;
+/// Greater than any error.
+const ANY: f32 = 2.0;
+
+impl Sheets {
+    /// The images looked for on a mirror whose maps face this way, by the number of their sheet.
+    fn images(self, facing: f32) -> &'static [Image] {
+        match self {
+            _ if facing > 0.0 => &[Image::Published],
+            Self::First => &[Image::Published],
+            Self::Extrema => &[Image::Upright, Image::Published],
+            Self::All => &[Image::Upright, Image::Between, Image::Published],
+        }
+    }
 }
 
 impl Settings {
@@ -134,8 +185,10 @@ impl Settings {
     /// Where normals point inwards, the surface whose normal is the bisector lies in the direction
     /// against it. The field so turned has its sinks at the inverted images: in front of a point
     /// beyond the focus the bisector turns less along the mirror than the normal, in front of a
-    /// nearer one more, so that each step leads away from the upright image.
-    fn new(options: &ReflectorCubemap, facing: f32) -> Self {
+    /// nearer one more, so that each step leads away from the upright image, and leads there if the
+    /// field is taken with the other sign. Between the foci of a beam it turns less in one direction
+    /// and more in the other: to such a point no walk leads.
+    fn new(options: &ReflectorCubemap, facing: f32, image: Image) -> Self {
         Self {
             size: options.size,
             iterations: options.iterations,
@@ -148,6 +201,16 @@ impl Settings {
             greatest: options.greatest as f32,
             from_eye: u32::from(options.start == Start::Eye),
             facing,
+            sense: match image {
+                Image::Upright => 1.0,
+                _ => facing,
+            },
+            image: image as u32,
+            accept: match options.sheets {
+                Sheets::First => ANY,
+                _ if facing > 0.0 => ANY,
+                _ => ARRIVED,
+            },
         }
     }
 }
@@ -165,7 +228,8 @@ struct InMaps {
 /// The maps of one mirror.
 struct OnGpu {
     shape: Shape,
-    group: wgpu::BindGroup,
+    /// One a sheet.
+    groups: Vec<wgpu::BindGroup>,
 }
 
 impl InMaps {
@@ -174,7 +238,12 @@ impl InMaps {
         let slots = [Slot::Uniform, Slot::Textures, Slot::Textures];
         let layout = layout(gpu, "reflector cube maps", &slots);
         let published = options.projection == Projection::Published;
-        let features = [(context.extends, "extend"), (published, "published")];
+        let several = options.sheets != Sheets::First;
+        let features = [
+            (context.extends, "extend"),
+            (published, "published"),
+            (several, "sheets"),
+        ];
         let features = features.into_iter().filter(|(on, _)| *on);
         let features: Vec<_> = features.map(|(_, name)| name).collect();
         let mut made = Self {
@@ -196,7 +265,6 @@ impl InMaps {
     fn build(&mut self, gpu: &Gpu, mirror: &Mirror) -> OnGpu {
         self.builds += 1;
         let maps = Maps::new(&*mirror.shape, &self.options);
-        let settings = uniform(gpu, &Settings::new(&self.options, maps.facing));
         let views = [&maps.positions, &maps.normals].map(|texels| {
             // Cube textures cannot be read texel by texel.
             let texture = texture_with(gpu, "reflector cube map", [maps.size, FACES], texels);
@@ -205,14 +273,19 @@ impl InMaps {
                 ..Default::default()
             })
         });
-        let resources = [
-            settings.as_entire_binding(),
-            wgpu::BindingResource::TextureView(&views[0]),
-            wgpu::BindingResource::TextureView(&views[1]),
-        ];
+        let images = self.options.sheets.images(maps.facing).iter();
+        let groups = images.map(|image| {
+            let settings = uniform(gpu, &Settings::new(&self.options, maps.facing, *image));
+            let resources = [
+                settings.as_entire_binding(),
+                wgpu::BindingResource::TextureView(&views[0]),
+                wgpu::BindingResource::TextureView(&views[1]),
+            ];
+            group(gpu, &self.layout, &resources)
+        });
         OnGpu {
             shape: mirror.shape.clone(),
-            group: group(gpu, &self.layout, &resources),
+            groups: groups.collect(),
         }
     }
 }
@@ -231,15 +304,19 @@ impl Search for InMaps {
         false
     }
 
+    fn sheets(&self, mirror: usize) -> usize {
+        self.mirrors[mirror].groups.len()
+    }
+
     fn record_search(
         &self,
         frame: &mut Recorder<'_>,
         stage: &Stage,
-        mirror: usize,
+        sheet: Sheet,
         points: &Points,
         variant: Variant,
     ) {
-        let own = &self.mirrors[mirror].group;
-        (self.pipelines).record(frame, (stage, mirror), points, own, variant);
+        let own = &self.mirrors[sheet.mirror].groups[sheet.number];
+        (self.pipelines).record(frame, (stage, sheet.mirror), points, own, variant);
     }
 }

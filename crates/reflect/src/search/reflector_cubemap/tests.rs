@@ -5,10 +5,11 @@ use glam::{DVec2, DVec3, Vec2};
 
 use super::twin::{CubemapStep, CubemapWalk};
 use super::{InMaps, ReflectorCubemap, Settings};
+use crate::gpu::{Gpu, storage_bytes};
 use crate::search::{Context, Instrumentation, Search};
-use crate::stage::points::Found;
-use crate::stage::points::points_layout;
+use crate::stage::points::{Found, Points, points_layout};
 use crate::stage::twin::vertices;
+use crate::stage::variant::Variant;
 use crate::testing::{Searched, assert_layout, gpu_or_skip, scene, stage};
 use crate::{Support, parse, supports};
 
@@ -184,6 +185,128 @@ fn in_a_bowl_the_inverted_images_are_found() {
     );
 }
 
+/// Vertices seen in the bowl at a known place, with the number of focal points of the reflected beam
+/// before each: sagittal rays meet where 1/a + 1/b = 2 cos i / R, tangential ones where it is 2 / (R cos i).
+fn known_in_the_bowl(scene: &Scene, view: &View) -> Vec<(DVec3, DVec2, usize)> {
+    let Shape::Bowl(bowl) = &scene.mirrors[0].shape else {
+        panic!("a bowl")
+    };
+    let class = |(vertex, at): (DVec3, DVec2)| {
+        let hit = scene.mirrors[0]
+            .shape
+            .intersect(view.eye, view.ray(at), 0.0)?;
+        let (way, eye) = (vertex - hit.position, view.eye - hit.position);
+        let cosine = hit.normal.dot(eye.normalize());
+        // Not the back, and nothing that the bowl itself hides.
+        let again = scene.mirrors[0]
+            .shape
+            .intersect(hit.position, way.normalize(), 1e-9);
+        if cosine <= 0.0 || again.is_some_and(|again| again.t < way.length()) {
+            return None;
+        }
+        let before = |bend: f64| {
+            let focus = 1.0 / (2.0 * bend / bowl.radius - 1.0 / eye.length());
+            usize::from(focus > 0.0 && focus < way.length())
+        };
+        Some((vertex, at, before(cosine) + before(1.0 / cosine)))
+    };
+    known(scene, view).into_iter().filter_map(class).collect()
+}
+
+/// Shares of the known points in the bowl that a technique finds to 0.75 px, by the number of focal
+/// points before the vertex, and of all.
+fn recall_in_the_bowl(gpu: &Gpu, technique: &str) -> [f64; 4] {
+    let scene = scene("prototype-bowl");
+    let size = [512, 512];
+    let searched = Searched::new(gpu, &scene, technique, size);
+    let known = known_in_the_bowl(&scene, &scene.camera.view(size));
+    let four = |vertex: &DVec3| vertex.as_vec3().extend(1.0).to_array();
+    let positions: Vec<_> = known.iter().map(|(vertex, ..)| four(vertex)).collect();
+    let positions = storage_bytes(gpu, bytemuck::cast_slice(&positions));
+    let count = known.len() as u32;
+    let mut found = vec![[false; 3]; known.len()];
+    for sheet in &searched.sheets {
+        let points = Points::new(gpu, &points_layout(gpu), &positions, count);
+        gpu.run(|frame| {
+            let (stage, variant) = (&searched.stage, Variant::Color);
+            (searched.search).record_search(frame, stage, *sheet, &points, variant);
+        });
+        for ((found, answer), (_, at, _)) in found
+            .iter_mut()
+            .zip(points.read_found(gpu, count))
+            .zip(&known)
+        {
+            let near = answer.at.as_dvec2().distance(*at) < 0.75;
+            found[sheet.number] = near && answer.state != Found::FAILED;
+        }
+    }
+    let share = |wanted: Option<usize>| {
+        let pairs = known.iter().zip(&found);
+        let of_class: Vec<_> = pairs
+            .filter(|((.., class), _)| wanted.is_none_or(|wanted| wanted == *class))
+            .collect();
+        assert!(of_class.len() > 50, "{wanted:?}: {}", of_class.len());
+        let hits = of_class.iter().filter(|(_, found)| found.contains(&true));
+        hits.count() as f64 / of_class.len() as f64
+    };
+    [share(Some(0)), share(Some(1)), share(Some(2)), share(None)]
+}
+
+#[test]
+fn on_each_sheet_of_a_bowl_its_images_are_found() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let recall = |sheets: &str, iterations: u32| {
+        let technique = format!("reflector-cubemap(iterations={iterations},sheets={sheets})");
+        let recall = recall_in_the_bowl(&gpu, &technique);
+        println!("{technique}: {recall:.3?}");
+        recall
+    };
+    // As published, the inverted images alone.
+    let [upright, between, inverted, _] = recall("first", 40);
+    assert!(upright < 0.02 && between < 0.02 && inverted > 0.99);
+    let [upright, between, inverted, all] = recall("extrema", 40);
+    assert!(upright > 0.98 && between < 0.02 && inverted > 0.99 && all > 0.85);
+    let [upright, between, inverted, all] = recall("all", 40);
+    assert!(upright > 0.98 && between > 0.98 && inverted > 0.99 && all > 0.985);
+}
+
+#[test]
+fn vertices_beyond_the_rim_are_unreflected() {
+    // Outside the cone from the centre through the rim nothing of a small bowl is in view of what lies
+    // beside it; and all that is reflected in view is in the cap.
+    let Some(gpu) = gpu_or_skip() else { return };
+    let mut scene = scene("prototype-bowl");
+    let states = |scene: &Scene| {
+        let searched = Searched::new(&gpu, scene, "reflector-cubemap(iterations=40)", [128, 128]);
+        let count = searched.stage.world.vertices();
+        let found = searched.batches[0].read_found(&gpu, count);
+        let Shape::Bowl(bowl) = &scene.mirrors[0].shape else {
+            panic!("a bowl")
+        };
+        for answer in &found {
+            let direction = (answer.position.as_dvec3() - bowl.center).normalize();
+            let angle = direction.angle_between(bowl.axis);
+            // A texel is 0.4 degrees wide at most.
+            if answer.state == Found::UNREFLECTED {
+                assert!(angle > bowl.half_angle - 0.01, "{angle}");
+            } else if answer.state == Found::FOUND {
+                assert!(angle < bowl.half_angle + 0.01, "{angle}");
+            }
+        }
+        let beyond = found
+            .iter()
+            .filter(|answer| answer.state == Found::UNREFLECTED);
+        beyond.count()
+    };
+    let whole = states(&scene);
+    let Shape::Bowl(bowl) = &mut scene.mirrors[0].shape else {
+        panic!("a bowl")
+    };
+    bowl.half_angle /= 2.0;
+    let cut = states(&scene);
+    assert!(cut > whole + 100, "{whole} {cut}");
+}
+
 #[test]
 fn hidden_vertices_are_continued_to_where_they_are() {
     // The image of a hidden vertex in the tangent plane under its line of sight is on the
@@ -233,6 +356,10 @@ fn gpu_finds_the_same_points() {
             "prototype-bowl",
             "reflector-cubemap(iterations=2,hidden=extend)",
         ),
+        (
+            "prototype-bowl",
+            "reflector-cubemap(iterations=60,sheets=extrema)",
+        ),
     ] {
         let Some(gpu) = gpu_or_skip() else {
             return;
@@ -246,15 +373,21 @@ fn gpu_finds_the_same_points() {
         let efforts = searched.batches[0].read_efforts(&gpu, count);
         let view = scene.camera.view(size);
         let walk = walk(&scene, technique);
+        // Where a walk ends that does not arrive is nothing to agree on.
         let pairs = found.iter().zip(&efforts).zip(&positions);
         let same = pairs.filter(|((found, effort), vertex)| {
             let answer = walk.search(**vertex, unseen);
             let at = view.project(answer.position.as_dvec3());
             let at = at.map_or(Vec2::NAN, |(at, _)| at.as_vec2());
-            let state = [Found::FOUND, Found::HIDDEN][usize::from(answer.hidden)];
-            let first = 1 + 2 * u32::from(walk.extends());
+            let state = match answer {
+                _ if answer.failed => Found::FAILED,
+                _ if answer.hidden => Found::HIDDEN,
+                _ if answer.unreflected => Found::UNREFLECTED,
+                _ => Found::FOUND,
+            };
+            let first = 1 + 2 * u32::from(walk.looks_along_the_line_of_sight());
             assert_eq!(effort.evaluations, 2 * effort.steps + first);
-            at.distance(found.at) < NEAR && state == found.state
+            (state == Found::FAILED || at.distance(found.at) < NEAR) && state == found.state
         });
         let same = same.count();
         let share = same as f64 / positions.len() as f64;
@@ -281,7 +414,10 @@ fn the_settings_lie_as_the_shader_reads_them() {
             least,
             greatest,
             from_eye,
-            facing
+            facing,
+            sense,
+            image,
+            accept
         },
         "reflector_cubemap",
         &[],

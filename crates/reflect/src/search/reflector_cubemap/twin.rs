@@ -5,12 +5,12 @@ use catoptric_scene::Scene;
 use glam::{Vec2, Vec3};
 
 use super::maps::{Maps, objection};
-use super::{Projection, ReflectorCubemap, Settings};
+use super::{Image, Projection, ReflectorCubemap, Settings, Sheets};
 use crate::options::Options as _;
 use crate::spec::Options;
 use crate::stage::options::{Hidden, SearchOptions};
 
-/// The search in the reflector cube maps of one mirror, on the CPU.
+/// The search in the reflector cube maps of one mirror, on the CPU: the walk for its first sheet.
 ///
 /// Vertices are in world space. A place on the cube is a direction from the mirror's centre with
 /// largest component 1.
@@ -23,6 +23,7 @@ pub struct CubemapWalk {
     eye: Vec3,
     extend: bool,
     published: bool,
+    several: bool,
 }
 
 /// A step of a search: places on the cube.
@@ -43,6 +44,10 @@ pub struct CubemapAnswer {
     pub position: Vec3,
     /// Eye or vertex is behind the tangent plane there.
     pub hidden: bool,
+    /// It lies beyond the rim of an open mirror.
+    pub unreflected: bool,
+    /// The walk has not arrived, where it must.
+    pub failed: bool,
 }
 
 struct Start {
@@ -70,6 +75,7 @@ fn on_cube(q: Vec3) -> Vec3 {
 struct Surface {
     position: Vec3,
     normal: Vec3,
+    cover: f32,
 }
 
 struct Field {
@@ -90,7 +96,8 @@ impl CubemapWalk {
         let common = SearchOptions::read(&mut common);
         let maps = Maps::new(shape, &own);
         Self {
-            settings: Settings::new(&own, maps.facing),
+            settings: Settings::new(&own, maps.facing, own.sheets.images(maps.facing)[0]),
+            several: own.sheets != Sheets::First,
             maps,
             center: shape.center().as_vec3(),
             eye: (scene.camera.eye - shape.center()).as_vec3(),
@@ -108,9 +115,9 @@ impl CubemapWalk {
             .step
     }
 
-    /// True where hidden vertices are continued behind the tangent plane.
-    pub fn extends(&self) -> bool {
-        self.extend
+    /// True where a search begins by looking where the line of sight meets the mirror.
+    pub fn looks_along_the_line_of_sight(&self) -> bool {
+        self.extend || self.several
     }
 
     fn lookup(&self, q: Vec3) -> Surface {
@@ -124,16 +131,18 @@ impl CubemapWalk {
         let layer = 2 * axis as u32 + u32::from(q[axis] < 0.0);
         let at = |map: &[[f32; 4]], x: u32, y: u32| {
             let texel = ((layer * size + low.y + y) * size + low.x + x) as usize;
-            Vec3::from_slice(&map[texel])
+            glam::Vec4::from_array(map[texel])
         };
         let blend = |map: &[[f32; 4]]| {
             let top = at(map, 0, 0).lerp(at(map, 1, 0), weight.x);
             let bottom = at(map, 0, 1).lerp(at(map, 1, 1), weight.x);
             top.lerp(bottom, weight.y)
         };
+        let position = blend(&self.maps.positions);
         Surface {
-            position: blend(&self.maps.positions),
-            normal: blend(&self.maps.normals).normalize(),
+            position: position.truncate(),
+            normal: blend(&self.maps.normals).truncate().normalize(),
+            cover: position.w,
         }
     }
 
@@ -151,8 +160,8 @@ impl CubemapWalk {
             to_vertex -= 2.0 * to_vertex.dot(surface.normal).min(0.0) * surface.normal;
         }
         let sum = to_eye + to_vertex / to_vertex.length().max(1e-30);
-        let bisector = self.settings.facing * sum / sum.length().max(1e-30);
-        let normal = self.settings.facing * surface.normal;
+        let bisector = self.settings.sense * sum / sum.length().max(1e-30);
+        let normal = self.settings.sense * surface.normal;
         let turn = bisector - normal;
         let step = if self.published {
             let side = q[axis].signum();
@@ -185,7 +194,7 @@ impl CubemapWalk {
             direction: self.settings.facing * if at_middle { middle } else { to_eye },
             continued: false,
         };
-        if self.extend {
+        if self.extend || self.several {
             let along = (vertex - self.eye).normalize();
             let mut nearest = self.eye - self.eye.dot(along) * along;
             if nearest.length() <= 1e-3 * self.eye.length() {
@@ -203,11 +212,14 @@ impl CubemapWalk {
             let least = out * out - slope * slope / bend;
             let half = (bend * (1.0 - least)).max(0.0).sqrt();
             let met = nearest - (slope + self.settings.facing * half) / bend * along;
-            if least < NEAR_MISS * NEAR_MISS && (vertex - met).dot(along) > 0.0 {
+            if self.extend && least < NEAR_MISS * NEAR_MISS && (vertex - met).dot(along) > 0.0 {
                 begin.continued = true;
                 if least < 1.0 && self.settings.from_eye == 0 {
                     begin.direction = met;
                 }
+            }
+            if self.settings.image == Image::Upright as u32 {
+                begin.direction = met;
             }
         }
         begin
@@ -257,6 +269,8 @@ impl CubemapWalk {
         CubemapAnswer {
             hidden: (vertex - surface.position).dot(surface.normal) < 0.0
                 || (self.eye - surface.position).dot(surface.normal) < 0.0,
+            unreflected: surface.cover < 0.5,
+            failed: self.several && here.error > self.settings.accept,
             position: self.center + surface.position,
         }
     }

@@ -240,7 +240,7 @@ const BITS: &[Claim] = &[
     claim(
         Paper::Ours,
         "",
-        "In 32 bits it cannot tell neighbouring pixels apart in a narrow view.",
+        "In 32 bits the published error cannot tell neighbouring pixels apart in a narrow view.",
         ratio(
             at(DOT, 32.0),
             at(CROSS, 32.0),
@@ -269,7 +269,7 @@ const BUILDING: &[Claim] = &[
     claim(
         Paper::Ciz2017,
         "2.3.3",
-        "So it is on the GPU.",
+        "A ray tracer's hierarchy is costly where objects move: to build it on the GPU takes longer than to trace.",
         value(
             last(HARDWARE_REBUILT),
             Term::Quotient(BUILD_GPU, TRACE_MS),

@@ -14,9 +14,9 @@
 //! 2. Its `figures` function builds the figures, in the order of the page. It is given the user's
 //!    `--scene`, if any: put it in place of your scenes where the figure's axis is not the scene,
 //!    and leave out figures that make no sense then.
-//! 3. What a figure decides are its [`claims::Claim`]s: who says what where, the rule that measures it,
+//! 3. What a figure decides are its `claims::Claim`s: who says what where, the rule that measures it,
 //!    and why the rule's limit is where it is. Nothing else is concluded on a page. Most rules are one
-//!    line (`claims::make`); where none fits, a [`claims::Measure::Own`] function makes the numbers.
+//!    line (`claims::make`); where none fits, a `claims::Measure::Own` function makes the numbers.
 //!    The tests see to it that each can come out either way. Numbers of the paper stand in `quotes`,
 //!    with ours beside them.
 //! 4. Mark a few points with [`Point::shown`]: their pictures, reference and error map come on the

@@ -116,6 +116,11 @@ impl Limit {
 
     /// The limit in words.
     pub fn words(self, shown: Shown) -> String {
+        // A ratio is above 1, not above 1 times.
+        let shown = match shown {
+            Shown::Times => Shown::In(""),
+            other => other,
+        };
         match self {
             Self::Above(limit) => format!("above {}", shown.write(limit)),
             Self::Below(limit) => format!("below {}", shown.write(limit)),

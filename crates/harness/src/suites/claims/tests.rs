@@ -116,12 +116,12 @@ fn verdicts(
             .map(|series| {
                 let places: Vec<f64> = series.points.iter().map(|point| point.x).collect();
                 let mut one = |_: &&'static str| {
-                    let factor = if dice.next() % 3 == 0 {
+                    let factor = if dice.next().is_multiple_of(3) {
                         shared
                     } else {
                         dice.of(&candidates)
                     };
-                    let other = if dice.next() % 2 == 0 {
+                    let other = if dice.next().is_multiple_of(2) {
                         1.0
                     } else {
                         dice.of(&candidates)
@@ -132,7 +132,7 @@ fn verdicts(
             })
             .collect();
         // Often all series share what they are, so that claims about all of them hold or fail.
-        let alike = dice.next() % 2 == 0;
+        let alike = dice.next().is_multiple_of(2);
         let value = |series: usize, x: f64, path: &str| {
             // A recorded interval of a median is a narrow one here.
             let path = path

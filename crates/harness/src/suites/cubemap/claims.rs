@@ -70,7 +70,7 @@ pub const GRID: &[Claim] = &[
     claim(
         Z17,
         "4.3",
-        "It does so by a small amount only.",
+        "Acceleration makes it faster by a small amount only.",
         ratio(
             every(ACCELERATED),
             every(PLAIN),
@@ -167,7 +167,7 @@ pub const GRID: &[Claim] = &[
             noise: COUNTED,
             shown: Shown::Times,
         },
-        "the same of samples.",
+        "samples a mirror pixel with L in the dearest scene over the cheapest: a quarter is about the same.",
     ),
 ];
 
@@ -398,14 +398,14 @@ pub const FILLINGS: &[Claim] = &[
     claim(
         Z17,
         "3.9",
-        "It is nearer to the truth than pixels that are only marked.",
+        "Filling with an environment map is nearer to the truth than marking.",
         difference(every(1), every(0), RIGHT, Limit::Above(0.0), ROUNDING),
         "right mirror pixels with the map less those with a mark.",
     ),
     claim(
         Z17,
         "3.9",
-        "So is the sample that came nearest to a hit.",
+        "Filling with the sample that came nearest to a hit is nearer to the truth than marking.",
         difference(every(4), every(0), RIGHT, Limit::Above(0.0), ROUNDING),
         "right mirror pixels with the best candidate less those with a mark.",
     ),
@@ -423,7 +423,7 @@ pub const STAGES: &[Claim] = &[
     claim(
         Z17,
         "3.7",
-        "It takes fewer samples, since it looks at each texel once at most.",
+        "The compute version takes fewer samples, since it looks at each texel once at most.",
         ratio(every(2), every(0), LOOKED_UP, Limit::Below(1.0), COUNTED),
         SAMPLES_COUNTED,
     ),
@@ -449,7 +449,7 @@ pub const FACES: &[Claim] = &[
     claim(
         Z17,
         "2.3.1",
-        "It is more exact than an environment map of the same size.",
+        "Cubemap tracing is more exact than an environment map of the same size.",
         difference(
             of(Which::Ending(CONTINUOUS), Place::Each),
             of(Which::Ending(ENVIRONMENT), Place::Each),

@@ -69,7 +69,7 @@ pub const METHODS: &[Claim] = &[
     claim(
         V05,
         "5",
-        "Of the search itself it spares the most.",
+        "The grid spares most of the search.",
         ratio(
             at(PICTURES, 1.0),
             at(PICTURES, 0.0),
@@ -203,7 +203,7 @@ pub const SILHOUETTE: &[Claim] = &[
     claim(
         V05,
         "6.1",
-        "It does so without drawing too much.",
+        "Continuing hidden vertices does not draw too much.",
         difference(
             of(EVERY, Place::At(1.0)),
             of(EVERY, Place::At(0.0)),

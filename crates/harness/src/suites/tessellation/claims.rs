@@ -76,12 +76,12 @@ pub const STRAIGHT: &[Claim] = &[
             EDGE_NOISE,
             Shown::In("px"),
         ),
-        "as above: the search of this paper has the same edges between other ends.",
+        "a pixel of mean offset is seen by anyone; the search of this paper has the same edges between its ends.",
     ),
     claim(
         C13,
         "Fig. 1",
-        "Split often enough it is right.",
+        "A square that is split often enough has its edges in the right places.",
         value(
             at(SEARCH, 1.0),
             OFF,
@@ -137,7 +137,7 @@ pub const LEVELS: &[Claim] = &[
     claim(
         T13,
         "6.2",
-        "At a high limit its cost is much lower.",
+        "At a high limit the cost of adaptive tessellation is much lower than that of full tessellation.",
         ratio(
             last(ADAPTIVE),
             last(FULL),
@@ -343,7 +343,7 @@ pub const TABLE: &[Claim] = &[
     claim(
         C13,
         "5.2, 6",
-        "It makes a faster frame than full tessellation.",
+        "Adaptive tessellation makes a faster frame than full tessellation.",
         ratio(
             at(SEARCH, 1.0),
             at(SEARCH, 2.0),
@@ -403,7 +403,7 @@ pub const THRESHOLDS: &[Claim] = &[
     claim(
         C13,
         "5.2",
-        "One of 0.01 is perfectly acceptable: the objects are right.",
+        "A threshold of 0.01 is perfectly acceptable: the objects are right.",
         difference(
             at(ADAPTIVE, 7.0),
             at(ADAPTIVE, 3.0),
@@ -416,7 +416,7 @@ pub const THRESHOLDS: &[Claim] = &[
     claim(
         C13,
         "5.2",
-        "One of 0.01 is perfectly acceptable: there are no gaps.",
+        "A threshold of 0.01 is perfectly acceptable: there are no gaps.",
         value(
             at(ADAPTIVE, 3.0),
             Term::Path(CRACK_PIXELS),
@@ -498,7 +498,7 @@ pub const COUNTS: &[Claim] = &[
     claim(
         C13,
         "5.2, Fig. 9",
-        "It needs fewer searches.",
+        "Adaptive tessellation needs fewer searches than full tessellation.",
         ratio(
             last(ADAPTIVE),
             last(FULL),
@@ -511,7 +511,7 @@ pub const COUNTS: &[Claim] = &[
     claim(
         T13,
         "6.2, 7.2",
-        "It makes pictures much better at a cost that can be borne.",
+        "Adaptive tessellation makes pictures much better than none.",
         difference(
             last(ADAPTIVE),
             last(NONE),
@@ -541,7 +541,7 @@ pub const FACETS: &[Claim] = &[
     claim(
         Paper::Ours,
         "",
-        "Splitting the triangles helps there.",
+        "On a mirror of facets splitting the triangles helps.",
         difference(
             at(FOUR, 1.0),
             at(FOUR, 0.0),
@@ -578,7 +578,7 @@ pub const HIERARCHY: &[Claim] = &[
             noise: Noise::Share(0.01),
             shown: Shown::Times,
         },
-        "the same of searches that are run.",
+        "searches of full over those of adaptive under the hierarchy, over the same under the linear search.",
     ),
 ];
 

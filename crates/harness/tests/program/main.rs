@@ -4,6 +4,7 @@
 mod support;
 
 mod check;
+mod claims;
 mod cli;
 mod export;
 mod goldens;

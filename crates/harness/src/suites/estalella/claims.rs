@@ -6,8 +6,8 @@ use crate::suites::claims::{
     each, last, of,
 };
 use crate::suites::paths::{
-    AGREEMENT, EVALUATIONS, EXTRA, FLIP, FRAME_MS, JITTER_P99, JUMPS, MEAN_PX, MEDIAN_PX, MISSING, SEARCHED,
-    SEARCH_MS, STEPS,
+    AGREEMENT, EVALUATIONS, EXTRA, FLIP, FRAME_MS, JITTER_P99, JUMPS, MEAN_PX, MEDIAN_PX, MISSING,
+    SEARCH_MS, SEARCHED, STEPS,
 };
 
 const V05: Paper = Paper::Estalella2005;

@@ -35,6 +35,7 @@ impl Gridded {
             gpu,
             drawn: asked.common,
             search: asked.recipe.properties(),
+            sheets: &searched.sheets,
             continued,
             stage,
             points_layout: &points_layout(gpu),
@@ -43,11 +44,11 @@ impl Gridded {
         let mut interpolation = made.expect("fits the device");
         interpolation.begin_frame(gpu, stage, false);
         gpu.run(|frame| {
-            for mirror in 0..stage.world.mirrors.len() {
+            for sheet in &searched.sheets {
                 let (search, variant) = (searched.search.as_ref(), Variant::AllLayers);
-                stage.record_maps(frame, mirror);
-                search.record_build(frame, stage, mirror);
-                interpolation.record(frame, stage, search, mirror, variant);
+                stage.record_maps(frame, sheet.mirror);
+                search.record_build(frame, stage, sheet.mirror);
+                interpolation.record(frame, stage, search, *sheet, variant);
             }
         });
         Self {

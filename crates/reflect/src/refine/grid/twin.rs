@@ -154,9 +154,9 @@ mod tests {
             .map(|[x, y, z, _]| Vec3::new(*x, *y, *z))
             .collect();
         let mut counts = [0; 2];
-        for mirror in &made.mirrors {
-            let settled = mirror.settled.as_ref().expect("settles");
-            let found = mirror.searched.read_found(gpu, positions.len() as u32);
+        for on_sheet in &made.on_sheets {
+            let settled = on_sheet.settled.as_ref().expect("settles");
+            let found = on_sheet.searched.read_found(gpu, positions.len() as u32);
             let twin = Cells {
                 view: ViewUniform::new(&scene, size, Under::Background),
                 forest: &made.forest,
@@ -175,7 +175,7 @@ mod tests {
             counts[0] += states.iter().filter(|state| **state == SERVES).count();
             counts[1] += states.iter().filter(|state| **state == SPLIT).count();
 
-            let answers = mirror
+            let answers = on_sheet
                 .interpolated
                 .read_found(gpu, made.forest.places.len() as u32);
             let (mut alike, mut all) = (0_u32, 0_u32);

@@ -1,8 +1,6 @@
 //! `catoptric claims`: the papers' claims by recorded runs.
 
-mod support;
-
-use support::{catoptric, code, json, refused, stdout};
+use crate::support::{catoptric, code, json, refused, stdout};
 
 const RECORD: &str = concat!(
     env!("CARGO_MANIFEST_DIR"),

@@ -2,8 +2,8 @@
 
 use crate::suites::claims::make::{claim, difference, greatest_step, grows, ratio, value};
 use crate::suites::claims::{
-    Case, Claim, EVERY, Limit, Measure, Noise, Numbers, Paper, Place, Rule, Shown, Term, Which, at,
-    each, last, of,
+    Case, Claim, EVERY, Interval, Limit, Measure, Noise, Numbers, Paper, Place, Rule, Shown, Term,
+    Which, at, each, last, of,
 };
 use crate::suites::paths::{
     AGREEMENT, EVALUATIONS, EXTRA, FLIP, FRAME_MS, JITTER_P99, JUMPS, MEAN_PX, MEDIAN_PX, MISSING,
@@ -174,16 +174,28 @@ pub const ITERATIONS: &[Claim] = &[
         V05,
         "4.3",
         "A step takes two looks into the maps.",
-        value(
-            at("sphere", 9.0),
-            Term::Quotient(EVALUATIONS, STEPS),
-            Limit::Between(1.8, 2.2),
-            Noise::Exact,
-            Shown::Times,
-        ),
-        "evaluations over steps, counted; a last look at the answer comes on top.",
+        Rule {
+            of: Measure::Own(looks, &[EVALUATIONS, STEPS]),
+            is: Limit::Between(1.8, 2.2),
+            noise: Noise::Exact,
+            shown: Shown::In("looks"),
+        },
+        "evaluations that 25 steps take more than 9, over the steps that they take more, counted: what a search \
+         looks at before its first step falls out.",
     ),
 ];
+
+/// Looks for each further step.
+fn looks(from: &dyn Numbers) -> Vec<Case> {
+    let more = |path| Some(from.at("sphere", 25.0, path)? - from.at("sphere", 9.0, path)?);
+    let steps = more(STEPS).filter(|steps| *steps > 0.0);
+    let looks = more(EVALUATIONS).zip(steps);
+    let case = |(looks, steps): (f64, f64)| Case {
+        label: String::new(),
+        number: Interval::exact(looks / steps),
+    };
+    looks.map(case).into_iter().collect()
+}
 
 /// Hidden vertices.
 pub const SILHOUETTE: &[Claim] = &[

@@ -1,5 +1,5 @@
-//! The triangles in the order of their clusters, and the clusters' boxes, where they are in this frame
-//! (`beams/refit.wesl`).
+//! The triangles in the order of their clusters, their boxes and those of the clusters, where they are
+//! in this frame (`beams/refit.wesl`).
 
 use super::clusters::{CLUSTER, clusters};
 use crate::error::ReflectError;
@@ -22,6 +22,7 @@ pub(super) struct Geometry {
     pub(super) triangles: u32,
     pub(super) corners: wgpu::Texture,
     pub(super) boxes: wgpu::Texture,
+    pub(super) cluster_boxes: wgpu::Texture,
     place: Kernel,
     placed: wgpu::BindGroup,
     bound: Kernel,
@@ -37,12 +38,20 @@ impl Geometry {
         let rows = triangles.div_ceil(CLUSTER as u32 * ROW).max(1);
         let corners = [CORNERS * CLUSTER as u32 * ROW, rows];
         let corners = target(gpu, "triangles", corners, FLOAT4);
-        let boxes = target(gpu, "boxes of clusters", [BOX * ROW, rows], FLOAT4);
+        let boxes = [BOX * CLUSTER as u32 * ROW, rows];
+        let boxes = target(gpu, "boxes of triangles", boxes, FLOAT4);
+        let cluster_boxes = target(gpu, "boxes of clusters", [BOX * ROW, rows], FLOAT4);
         let slots = storage_bytes(gpu, bytemuck::cast_slice(&slots));
         gpu.check()?;
         let count = uniform(gpu, &triangles);
         let module = module(gpu, "beams/refit", &[])?;
-        let place_slots = [Slot::Read, Slot::Read, Slot::Uniform, Slot::Image];
+        let place_slots = [
+            Slot::Read,
+            Slot::Read,
+            Slot::Uniform,
+            Slot::Image,
+            Slot::Image,
+        ];
         let place_layout = layout(gpu, "triangles placed", &place_slots);
         let bound_slots = [Slot::Texture, Slot::Uniform, Slot::Image];
         let bound_layout = layout(gpu, "clusters bounded", &bound_slots);
@@ -54,24 +63,26 @@ impl Geometry {
                 slots.as_entire_binding(),
                 count.as_entire_binding(),
                 wgpu::BindingResource::TextureView(&view(&corners)),
+                wgpu::BindingResource::TextureView(&view(&boxes)),
             ],
         );
         let bounded = group(
             gpu,
             &bound_layout,
             &[
-                wgpu::BindingResource::TextureView(&view(&corners)),
-                count.as_entire_binding(),
                 wgpu::BindingResource::TextureView(&view(&boxes)),
+                count.as_entire_binding(),
+                wgpu::BindingResource::TextureView(&view(&cluster_boxes)),
             ],
         );
         Ok(Self {
             triangles,
             corners,
             boxes,
+            cluster_boxes,
             place: compute(gpu, &module, "triangles", &[Some(&place_layout)]),
             placed,
-            bound: compute(gpu, &module, "boxes", &[None, Some(&bound_layout)]),
+            bound: compute(gpu, &module, "clusters", &[None, Some(&bound_layout)]),
             bounded,
         })
     }

@@ -117,7 +117,7 @@ impl Lists {
         let sift_slots = [Texture, Read, Read, Write, Write, Write, Write];
         let sift_layout = layout(gpu, "sift", &sift_slots);
         let split_layout = layout(gpu, "split", &[Read, Write, Write, Write]);
-        let tiles_slots = [Texture, Texture, Read, Read, Read, Write, Write];
+        let tiles_slots = [Texture, Texture, Texture, Read, Read, Read, Write, Write];
         let tiles_layout = layout(gpu, "tiles", &tiles_slots);
         let size = match tile {
             Tile::Two => None,
@@ -155,12 +155,12 @@ impl Lists {
             let nodes = [low, high, least, settings.as_entire_binding()];
             let plan = storage_zeros(gpu, PLAN);
             let counts = storage_zeros(gpu, COUNTS * parts);
-            let (boxes, corners) = (view(&geometry.boxes), view(&geometry.corners));
-            let boxes = wgpu::BindingResource::TextureView(&boxes);
-            let corners = wgpu::BindingResource::TextureView(&corners);
+            let images = [&geometry.cluster_boxes, &geometry.boxes, &geometry.corners].map(view);
+            let images = images.each_ref().map(wgpu::BindingResource::TextureView);
+            let [clusters, boxes, corners] = images;
             let whole = wgpu::Buffer::as_entire_binding;
             let top = [
-                boxes.clone(),
+                clusters.clone(),
                 whole(&nothing),
                 whole(&nothing),
                 whole(&top_list),
@@ -169,7 +169,7 @@ impl Lists {
                 whole(&tests[0]),
             ];
             let coarse = [
-                boxes.clone(),
+                clusters.clone(),
                 whole(&top_list),
                 whole(&top_counts),
                 whole(&coarse_list),
@@ -184,6 +184,7 @@ impl Lists {
                 whole(&parts_of_tiles),
             ];
             let tiles = [
+                clusters,
                 boxes,
                 corners,
                 whole(&coarse_list),

@@ -11,7 +11,17 @@ use super::row::Record;
 
 /// Fields that this version of the record has not had from the start, wherever they stand: earlier
 /// ones lack them. So do the members of [`GROWING`].
-const LATER: [&str; 5] = ["resolved_by", "equal", "left_out", "more", "total"];
+const LATER: [&str; 9] = [
+    "resolved_by",
+    "equal",
+    "left_out",
+    "more",
+    "total",
+    "cluster_tests",
+    "pairs",
+    "longest_list",
+    "bytes",
+];
 /// The field whose members are more from version to version.
 const GROWING: &str = "more";
 

@@ -11,11 +11,14 @@ pub(super) const CLUSTER: usize = 32;
 /// all sides is looked for.
 const MANY: usize = 1 << 15;
 
-/// Of each place in the clusters, one after the other: the vertices of its triangle, counted over all
-/// objects, and the triangle's index among the scene's.
+/// A place in the clusters: the vertices of its triangle, counted over all objects, and the triangle's
+/// index among the scene's.
+pub(super) type Slot = [u32; 4];
+
+/// All places, one cluster after the other.
 ///
 /// Of triangles of one object that coincide the first is there alone: they do so in every frame.
-pub(super) fn clusters(scene: &Scene) -> Vec<[u32; 4]> {
+pub(super) fn clusters(scene: &Scene) -> Vec<Slot> {
     let mut slots = Vec::new();
     let mut centers = Vec::new();
     let (mut first_vertex, mut first_triangle) = (0, 0);
@@ -39,6 +42,27 @@ pub(super) fn clusters(scene: &Scene) -> Vec<[u32; 4]> {
     let mut order: Vec<u32> = (0..slots.len() as u32).collect();
     sort(&mut order, &centers);
     order.iter().map(|index| slots[*index as usize]).collect()
+}
+
+/// The same places, but where triangles of several objects coincide in this frame all but the first are
+/// points, which no ray meets; `None` where none coincide.
+pub(super) fn without_coincident(scene: &Scene, slots: &[Slot]) -> Option<Vec<Slot>> {
+    let meshes = scene.objects.iter().map(|object| &object.mesh);
+    let positions: Vec<Vec3> = meshes.flat_map(|mesh| &mesh.positions).copied().collect();
+    let mut order: Vec<usize> = (0..slots.len()).collect();
+    order.sort_unstable_by_key(|place| slots[*place][3]);
+    let first = first_of_coincident(slots.len(), |index| {
+        let [a, b, c, _] = slots[order[index]];
+        ([a, b, c].map(|vertex| positions[vertex as usize]), false)
+    });
+    let mut seen = slots.to_vec();
+    for (place, first) in order.iter().zip(&first) {
+        if !first {
+            let [a, _, _, triangle] = slots[*place];
+            seen[*place] = [a, a, a, triangle];
+        }
+    }
+    first.contains(&false).then_some(seen)
 }
 
 /// An axis-aligned box.

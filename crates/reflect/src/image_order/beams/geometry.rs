@@ -1,7 +1,7 @@
 //! The triangles in the order of their clusters, their boxes and those of the clusters, where they are
 //! in this frame (`beams/refit.wesl`).
 
-use super::clusters::{CLUSTER, clusters};
+use super::clusters::{self, CLUSTER, clusters, without_coincident};
 use crate::error::ReflectError;
 use crate::gpu::{
     FLOAT4, Gpu, Kernel, Recorder, Slot, compute, dispatch_size, group, layout, module,
@@ -23,6 +23,9 @@ pub(super) struct Geometry {
     pub(super) corners: wgpu::Texture,
     pub(super) boxes: wgpu::Texture,
     pub(super) cluster_boxes: wgpu::Texture,
+    /// Where triangles of several objects coincide: they may do so no more once these move.
+    coinciding: Option<Vec<clusters::Slot>>,
+    slots: wgpu::Buffer,
     place: Kernel,
     placed: wgpu::BindGroup,
     bound: Kernel,
@@ -33,15 +36,16 @@ impl Geometry {
     /// # Errors
     /// More triangles than the device's textures hold.
     pub(super) fn new(gpu: &Gpu, stage: &Stage) -> Result<Self, ReflectError> {
-        let slots = clusters(&stage.world.scene);
-        let triangles = slots.len() as u32;
+        let all = clusters(&stage.world.scene);
+        let seen = without_coincident(&stage.world.scene, &all);
+        let triangles = all.len() as u32;
         let rows = triangles.div_ceil(CLUSTER as u32 * ROW).max(1);
         let corners = [CORNERS * CLUSTER as u32 * ROW, rows];
         let corners = target(gpu, "triangles", corners, FLOAT4);
         let boxes = [BOX * CLUSTER as u32 * ROW, rows];
         let boxes = target(gpu, "boxes of triangles", boxes, FLOAT4);
         let cluster_boxes = target(gpu, "boxes of clusters", [BOX * ROW, rows], FLOAT4);
-        let slots = storage_bytes(gpu, bytemuck::cast_slice(&slots));
+        let slots = storage_bytes(gpu, bytemuck::cast_slice(seen.as_ref().unwrap_or(&all)));
         gpu.check()?;
         let count = uniform(gpu, &triangles);
         let module = module(gpu, "beams/refit", &[])?;
@@ -80,11 +84,22 @@ impl Geometry {
             corners,
             boxes,
             cluster_boxes,
+            coinciding: seen.map(|_| all),
+            slots,
             place: compute(gpu, &module, "triangles", &[Some(&place_layout)]),
             placed,
             bound: compute(gpu, &module, "clusters", &[None, Some(&bound_layout)]),
             bounded,
         })
+    }
+
+    /// Takes over which triangles coincide now, of those that did once.
+    pub(super) fn update(&self, gpu: &Gpu, stage: &Stage) {
+        if let Some(all) = &self.coinciding {
+            let seen = without_coincident(&stage.world.scene, all);
+            let slots = bytemuck::cast_slice(seen.as_ref().unwrap_or(all));
+            gpu.queue.write_buffer(&self.slots, 0, slots);
+        }
     }
 
     /// How many clusters there are.

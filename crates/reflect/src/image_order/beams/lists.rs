@@ -31,7 +31,7 @@ const TOP: u32 = 6;
 pub(super) const TILE: u32 = 8;
 
 /// Boxes grow by this share of the scene's extent: more than single precision rounds.
-const WIDER: f32 = 4e-6;
+pub(super) const WIDER: f32 = 4e-6;
 
 /// Bytes of a `Plan`, of a `Part`, of the `Parts` of a tile (`beams/plan.wesl`), of what a part met, and of
 /// what it counts.

@@ -22,6 +22,10 @@ mod pyramid;
 mod settings;
 mod shade;
 mod tally;
+#[cfg(test)]
+mod tests;
+#[cfg(test)]
+mod twin;
 
 use catoptric_frame::Work;
 
@@ -95,6 +99,7 @@ impl Ready {
 
 impl ImageOrder for Ready {
     fn update(&mut self, gpu: &Gpu, stage: &Stage) -> Result<(), ReflectError> {
+        self.geometry.update(gpu, stage);
         self.lists.update(gpu, stage, &self.geometry);
         Ok(())
     }
@@ -115,7 +120,11 @@ impl ImageOrder for Ready {
         let mean = |count: u64| (pixels > 0).then(|| count as f64 / pixels as f64);
         Work {
             node_tests: mean(tally.cluster_tests + tally.triangle_tests),
+            cluster_tests: mean(tally.cluster_tests),
             evaluations: mean(tally.exact),
+            pairs: mean(tally.pairs),
+            longest_list: Some(tally.longest as f64),
+            bytes: Some(tally.bytes as f64),
             ..Work::default()
         }
     }
@@ -126,6 +135,3 @@ impl ImageOrder for Ready {
             .sentences(self.geometry.triangles, self.lists.slices())
     }
 }
-
-#[cfg(test)]
-mod tests;

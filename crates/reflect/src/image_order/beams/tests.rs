@@ -236,7 +236,7 @@ fn of_triangles_of_two_objects_that_coincide_the_first_is_seen_until_they_part()
                 .count()
         };
         assert!(
-            count(seen) > 500 && count(3 - seen) < 100,
+            count(seen) > 200 && count(3 - seen) < 50,
             "{} and {}",
             count(1),
             count(2)

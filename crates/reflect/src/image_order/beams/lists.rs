@@ -288,7 +288,6 @@ impl Lists {
         }
         for slice in &self.slices {
             let parts = words(&slice.plan)[3];
-            tally.parts += u64::from(parts);
             let counts = gpu.read_buffer_part(&slice.counts, COUNTS * u64::from(parts));
             let counts: Vec<[u32; 5]> = bytemuck::pod_collect_to_vec(&counts);
             for [clusters, triangles, pairs, exact, longest] in counts {
@@ -314,7 +313,6 @@ fn settings(stage: &Stage, geometry: &Geometry, [first, count, room]: [u32; 3]) 
         wider: WIDER * diagonal(&stage.world.scene),
         tiles: tiles(stage),
         triangles: geometry.triangles,
-        clusters: geometry.clusters(),
         first_cluster: first,
         cluster_count: count,
         room,

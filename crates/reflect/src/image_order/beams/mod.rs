@@ -9,8 +9,8 @@
 //! is the ray tracer's, on mirrors of any shape and number, and whatever moves.
 //!
 //! No list can lose an entry: those of large nodes have room for all clusters that are sent down at a
-//! time, and where there are more of these than the memory takes, they are sent down in parts
-//! ([`lists`]); those of a tile lie in a workgroup's memory, which has room for a batch of triangles.
+//! time, and where there are more of these than the memory takes, they are sent down in slices
+//! (`lists.rs`); those of a tile lie in a workgroup's memory, which has room for a batch of triangles.
 //!
 //! Counted: a node test is one of a box of a cluster or a triangle against a node, an evaluation a test of
 //! a ray against a triangle.
@@ -129,9 +129,11 @@ impl ImageOrder for Ready {
         }
     }
 
-    fn notes(&self, gpu: &Gpu, _: &Stage) -> Vec<String> {
-        self.lists
-            .tally(gpu)
-            .sentences(self.geometry.triangles, self.lists.slices())
+    fn notes(&self, _: &Gpu, _: &Stage) -> Vec<String> {
+        let slices = self.lists.slices();
+        let sliced = format!(
+            "the triangles are sent down in {slices} slices: the lists have room for no more at a time"
+        );
+        (slices > 1).then_some(sliced).into_iter().collect()
     }
 }

@@ -9,7 +9,6 @@ pub(super) struct Settings {
     pub wider: f32,
     pub tiles: UVec2,
     pub triangles: u32,
-    pub clusters: u32,
     pub first_cluster: u32,
     pub cluster_count: u32,
     pub room: u32,

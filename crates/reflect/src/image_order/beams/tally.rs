@@ -13,31 +13,6 @@ pub(super) struct Tally {
     pub exact: u64,
     /// Most of these for one pixel and part of a tile.
     pub longest: u64,
-    /// Parts of tiles.
-    pub parts: u64,
     /// Bytes of the lists, and of what the parts met.
     pub bytes: u64,
-}
-
-impl Tally {
-    /// For the reader of a frame's numbers; `triangles`: of the scene, sent down in so many `slices`.
-    pub(super) fn sentences(&self, triangles: u32, slices: usize) -> Vec<String> {
-        let each = |count: u64| count as f64 / f64::from(triangles.max(1));
-        let mut sentences = vec![format!(
-            "beams: {:.1} node tests of clusters and {:.1} of triangles for each of {triangles} triangles; \
-             {} pairs of a leaf and a triangle, at most {} a leaf; {} parts of tiles; {} bytes of lists",
-            each(self.cluster_tests),
-            each(self.triangle_tests),
-            self.pairs,
-            self.longest,
-            self.parts,
-            self.bytes,
-        )];
-        if slices > 1 {
-            sentences.push(format!(
-                "beams: the triangles are sent down in {slices} parts, since the lists have room for no more"
-            ));
-        }
-        sentences
-    }
 }

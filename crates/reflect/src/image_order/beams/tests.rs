@@ -278,7 +278,6 @@ fn the_settings_lie_as_the_shaders_read_them() {
             wider,
             tiles,
             triangles,
-            clusters,
             first_cluster,
             cluster_count,
             room,

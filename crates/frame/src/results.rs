@@ -132,6 +132,14 @@ pub struct Work {
     pub samples: Option<f64>,
     /// Steps skipped by an acceleration structure.
     pub skips: Option<f64>,
+    /// Those of the node tests that test the box of a cluster of triangles.
+    pub cluster_tests: Option<f64>,
+    /// Of a node over a few pixels and a triangle that their rays may meet.
+    pub pairs: Option<f64>,
+    /// Most triangles that one pixel has to test from one list; no mean.
+    pub longest_list: Option<f64>,
+    /// Bytes of the lists of a frame; no mean.
+    pub bytes: Option<f64>,
 }
 
 impl Work {

@@ -26,6 +26,7 @@ static TECHNIQUES: &[Technique] = &[
     image_order::<image_order::planar::Planar>(),
     image_order::<image_order::cubemap_trace::CubemapTrace>(),
     image_order::<image_order::ray_trace::RayTrace>(),
+    image_order::<image_order::beams::Beams>(),
 ];
 
 /// A technique of the list.

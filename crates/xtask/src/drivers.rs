@@ -14,7 +14,7 @@ const SWIFTSHADER: [&str; 4] = [
 
 /// One mirror of each kind, and one that is a mesh.
 const COMPARED: &str = "run --release -p catoptric -- compare spheres planar bowl faceted sphere-table \
-     -t linear ray-hierarchy newton ray-trace planar cubemap-trace --resolution 96x72 --time-budget 0.1";
+     -t linear ray-hierarchy newton ray-trace beams planar cubemap-trace --resolution 96x72 --time-budget 0.1";
 
 /// The rows of the first driver.
 const FIRST: &str = "target/drivers.json";

@@ -11,13 +11,17 @@ use super::row::Record;
 
 /// Fields that this version of the record has not had from the start, wherever they stand: earlier
 /// ones lack them. So do the members of [`GROWING`].
-const LATER: [&str; 6] = [
+const LATER: [&str; 10] = [
     "resolved_by",
     "equal",
     "left_out",
     "more",
     "total",
     "object_agreement_min",
+    "cluster_tests",
+    "pairs",
+    "longest_list",
+    "bytes",
 ];
 /// The field whose members are more from version to version.
 const GROWING: &str = "more";

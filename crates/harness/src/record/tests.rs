@@ -111,6 +111,10 @@ pub fn measured(scene: &str, technique: &str) -> Record {
             node_tests: Some(0.0),
             samples: Some(0.0),
             skips: Some(0.0),
+            cluster_tests: Some(0.0),
+            pairs: Some(0.0),
+            longest_list: Some(0.0),
+            bytes: Some(0.0),
         }),
         resolved_by: Some(vec![0.9, 0.1]),
         temporal: Some(Steadiness {

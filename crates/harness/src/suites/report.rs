@@ -50,13 +50,14 @@ const QUICK_SCENES: [&str; 8] = [
     "sphere-touching",
 ];
 
-/// Both published searches, what games use instead, the mirrored eye for flat mirrors, and the
-/// control.
-const TECHNIQUES: [&str; 5] = [
+/// Both published searches, what games use instead, the mirrored eye for flat mirrors, our exact one for
+/// any, and the control.
+const TECHNIQUES: [&str; 6] = [
     shelf::LINEAR.1,
     shelf::RAY_HIERARCHY.1,
     shelf::ENVIRONMENT_MAP.1,
     shelf::PLANAR.1,
+    shelf::BEAMS.1,
     shelf::CONTROL.1,
 ];
 

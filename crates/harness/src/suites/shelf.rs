@@ -28,3 +28,5 @@ pub const CUBEMAP: (&str, &str) = (
 );
 /// The reference's own rays, traced on the graphics adapter: what all are held against.
 pub const CONTROL: (&str, &str) = ("ray trace (control)", "ray-trace");
+/// Triangles sent down a hierarchy over the rays: exact, without a hierarchy over the scene.
+pub const BEAMS: (&str, &str) = ("beams", "beams");

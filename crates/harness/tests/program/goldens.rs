@@ -24,6 +24,7 @@ const GOLDENS: &[(&str, &str)] = &[
     ("sphere-objects-1k", "newton"),
     ("planar", "planar"),
     ("ellipsoid", "ray-trace"),
+    ("kitchen", "beams"),
     ("ellipsoid", "environment-map(size=64)"),
     ("bowl", "cubemap-trace(size=64,accept=continuous,bounces=3)"),
 ];

@@ -28,10 +28,12 @@ pub(crate) use clock::Timer;
 pub use device::Gpu;
 pub use error::{BuildError, GpuError};
 pub(crate) use pipelines::{
-    Kernel, RasterEntries, RasterTargets, compute, dispatch_size, module, raster, raster_to,
+    Kernel, RasterEntries, RasterTargets, compute, compute_unset, dispatch_size, module, raster,
+    raster_to,
 };
 pub(crate) use recorder::{Begin, Recorder};
 pub use self_test::SelfTest;
 pub(crate) use textures::{
-    DEPTH, FLOAT4, level_view, pyramid, target, texture_array, texture_with, view,
+    DEPTH, FLOAT4, image_with_levels, level_view, pyramid, target, texture_array, texture_with,
+    view,
 };

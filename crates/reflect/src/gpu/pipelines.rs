@@ -85,6 +85,27 @@ pub(crate) fn compute(
     entry: &str,
     layouts: &[Option<&wgpu::BindGroupLayout>],
 ) -> Kernel {
+    kernel(gpu, module, entry, layouts, true)
+}
+
+/// As [`compute`], for a shader that sets all memory of its workgroups that it reads: none of it is
+/// cleared before, which costs much where there is much.
+pub(crate) fn compute_unset(
+    gpu: &Gpu,
+    module: &Module,
+    entry: &str,
+    layouts: &[Option<&wgpu::BindGroupLayout>],
+) -> Kernel {
+    kernel(gpu, module, entry, layouts, false)
+}
+
+fn kernel(
+    gpu: &Gpu,
+    module: &Module,
+    entry: &str,
+    layouts: &[Option<&wgpu::BindGroupLayout>],
+    zeroed: bool,
+) -> Kernel {
     let workgroup = module.workgroups.get(entry);
     let workgroup = *workgroup.unwrap_or_else(|| panic!("no compute entry point `{entry}`"));
     let pipeline = gpu
@@ -94,7 +115,10 @@ pub(crate) fn compute(
             layout: Some(&pipeline_layout(gpu, layouts)),
             module,
             entry_point: Some(entry),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                zero_initialize_workgroup_memory: zeroed,
+                ..Default::default()
+            },
             cache: None,
         });
     Kernel {

@@ -80,16 +80,26 @@ pub(crate) fn target(
 /// A square [`FLOAT4`] image with all its levels, written by compute shaders; `side` is a power of
 /// two.
 pub(crate) fn pyramid(gpu: &Gpu, label: &str, side: u32) -> wgpu::Texture {
+    image_with_levels(gpu, label, [side; 2], side.ilog2() + 1)
+}
+
+/// A [`FLOAT4`] image with so many levels, written by compute shaders.
+pub(crate) fn image_with_levels(
+    gpu: &Gpu,
+    label: &str,
+    [width, height]: [u32; 2],
+    levels: u32,
+) -> wgpu::Texture {
     texture(
         gpu,
         &wgpu::TextureDescriptor {
             label: Some(label),
             size: wgpu::Extent3d {
-                width: side,
-                height: side,
+                width,
+                height,
                 depth_or_array_layers: 1,
             },
-            mip_level_count: side.ilog2() + 1,
+            mip_level_count: levels,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
             format: FLOAT4,

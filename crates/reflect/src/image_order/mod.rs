@@ -1,6 +1,7 @@
 //! Image order: for each mirror pixel, what its reflected ray meets. One folder a technique, named
 //! as its shader: mirror G-buffer → technique → composite.
 
+pub(crate) mod beams;
 pub(crate) mod cubemap_trace;
 mod cubemaps;
 pub(crate) mod environment_map;

@@ -4,7 +4,7 @@
 pub(crate) mod composite;
 pub(crate) mod extent;
 pub(crate) mod gbuffer;
-mod geometry;
+pub(crate) mod geometry;
 pub(crate) mod maps;
 pub(crate) mod mirror;
 pub(crate) mod options;

@@ -1,0 +1,181 @@
+//! Neighbouring triangles in clusters, made once: a cluster whose box no ray of a node may meet spares
+//! that node the tests of all its triangles.
+
+use catoptric_scene::{Scene, first_of_coincident};
+use glam::Vec3;
+
+/// Triangles of a cluster; only the last one has fewer. Twin of `CLUSTER` in `beams/node.wesl`.
+pub(super) const CLUSTER: usize = 32;
+
+/// Of more triangles, halves are taken along the longest side of their box; of fewer, the best cut of
+/// all sides is looked for.
+const MANY: usize = 1 << 15;
+
+/// A place in the clusters: the vertices of its triangle, counted over all objects, and the triangle's
+/// index among the scene's.
+pub(super) type Slot = [u32; 4];
+
+/// All places, one cluster after the other.
+///
+/// Of triangles of one object that coincide the first is there alone: they do so in every frame.
+pub(super) fn clusters(scene: &Scene) -> Vec<Slot> {
+    let mut slots = Vec::new();
+    let mut centers = Vec::new();
+    let (mut first_vertex, mut first_triangle) = (0, 0);
+    for object in &scene.objects {
+        let mesh = &object.mesh;
+        let corners = |index: usize| {
+            let triangle: [u32; 3] = mesh.triangles[index];
+            triangle.map(|vertex| mesh.positions[vertex as usize])
+        };
+        let seen = first_of_coincident(mesh.triangles.len(), |index| (corners(index), false));
+        for (index, triangle) in mesh.triangles.iter().enumerate() {
+            if seen[index] {
+                let [a, b, c] = triangle.map(|vertex| first_vertex + vertex);
+                slots.push([a, b, c, first_triangle + index as u32]);
+                centers.push(Bounds::of(corners(index)));
+            }
+        }
+        first_vertex += mesh.positions.len() as u32;
+        first_triangle += mesh.triangles.len() as u32;
+    }
+    let mut order: Vec<u32> = (0..slots.len() as u32).collect();
+    sort(&mut order, &centers);
+    order.iter().map(|index| slots[*index as usize]).collect()
+}
+
+/// The same places, but where triangles of several objects coincide in this frame all but the first are
+/// points, which no ray meets; `None` where none coincide.
+pub(super) fn without_coincident(scene: &Scene, slots: &[Slot]) -> Option<Vec<Slot>> {
+    let meshes = scene.objects.iter().map(|object| &object.mesh);
+    let positions: Vec<Vec3> = meshes.flat_map(|mesh| &mesh.positions).copied().collect();
+    let mut order: Vec<usize> = (0..slots.len()).collect();
+    order.sort_unstable_by_key(|place| slots[*place][3]);
+    let first = first_of_coincident(slots.len(), |index| {
+        let [a, b, c, _] = slots[order[index]];
+        ([a, b, c].map(|vertex| positions[vertex as usize]), false)
+    });
+    let mut seen = slots.to_vec();
+    for (place, first) in order.iter().zip(&first) {
+        if !first {
+            let [a, _, _, triangle] = slots[*place];
+            seen[*place] = [a, a, a, triangle];
+        }
+    }
+    first.contains(&false).then_some(seen)
+}
+
+/// An axis-aligned box.
+#[derive(Clone, Copy, Debug)]
+struct Bounds {
+    low: Vec3,
+    high: Vec3,
+}
+
+impl Bounds {
+    const NOTHING: Self = Self {
+        low: Vec3::INFINITY,
+        high: Vec3::NEG_INFINITY,
+    };
+
+    fn of([a, b, c]: [Vec3; 3]) -> Self {
+        Self {
+            low: a.min(b).min(c),
+            high: a.max(b).max(c),
+        }
+    }
+
+    fn and(self, other: Self) -> Self {
+        Self {
+            low: self.low.min(other.low),
+            high: self.high.max(other.high),
+        }
+    }
+
+    /// Twice the centre.
+    fn middle(self) -> Vec3 {
+        self.low + self.high
+    }
+
+    /// Half the surface.
+    fn area(self) -> f32 {
+        let [x, y, z] = (self.high - self.low).to_array();
+        x * y + y * z + z * x
+    }
+}
+
+/// Puts triangles into an order whose runs of [`CLUSTER`] lie close together: the list is cut in two at
+/// such a run's end, and each part again.
+fn sort(order: &mut [u32], boxes: &[Bounds]) {
+    let mut open = vec![order];
+    while let Some(part) = open.pop() {
+        if part.len() <= CLUSTER {
+            continue;
+        }
+        let at = if part.len() > MANY {
+            halve(part, boxes)
+        } else {
+            cut(part, boxes)
+        };
+        let (left, right) = part.split_at_mut(at);
+        open.extend([left, right]);
+    }
+}
+
+/// Orders triangles by their centres along an axis as far as two halves are concerned; the answer is
+/// where the second one begins.
+fn halve(part: &mut [u32], boxes: &[Bounds]) -> usize {
+    let middle = |index: &u32| boxes[*index as usize].middle();
+    let all = part.iter().fold(Bounds::NOTHING, |all, index| {
+        let point = middle(index);
+        all.and(Bounds {
+            low: point,
+            high: point,
+        })
+    });
+    let axis = (all.high - all.low).max_position();
+    let at = (part.len() / 2).next_multiple_of(CLUSTER);
+    part.select_nth_unstable_by(at, |a, b| {
+        (middle(a)[axis].total_cmp(&middle(b)[axis])).then(a.cmp(b))
+    });
+    at
+}
+
+/// Orders triangles by their centres along the axis with the best cut; the answer is where the second
+/// part begins. The best cut leaves the least sum of surface times number.
+fn cut(part: &mut [u32], boxes: &[Bounds]) -> usize {
+    let by = |axis: usize| {
+        move |a: &u32, b: &u32| {
+            let middle = |index: &u32| boxes[*index as usize].middle()[axis];
+            middle(a).total_cmp(&middle(b)).then(a.cmp(b))
+        }
+    };
+    let mut best = (f32::INFINITY, 0, CLUSTER);
+    let mut behind = vec![0.0; part.len().div_ceil(CLUSTER)];
+    for axis in 0..3 {
+        part.sort_unstable_by(by(axis));
+        let runs = || part.chunks(CLUSTER).enumerate();
+        let joined = |all: Bounds, run: &[u32]| {
+            (run.iter()).fold(all, |all, index| all.and(boxes[*index as usize]))
+        };
+        let mut all = Bounds::NOTHING;
+        for (place, run) in runs().rev() {
+            all = joined(all, run);
+            behind[place] = all.area() * (part.len() - place * CLUSTER) as f32;
+        }
+        let mut all = Bounds::NOTHING;
+        for (place, run) in runs().take(behind.len() - 1) {
+            all = joined(all, run);
+            let at = (place + 1) * CLUSTER;
+            let cost = all.area() * at as f32 + behind[place + 1];
+            if cost < best.0 {
+                best = (cost, axis, at);
+            }
+        }
+    }
+    let (_, axis, at) = best;
+    if axis != 2 {
+        part.sort_unstable_by(by(axis));
+    }
+    at
+}

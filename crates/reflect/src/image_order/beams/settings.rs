@@ -1,0 +1,16 @@
+//! What all kernels of the beams read.
+
+use encase::ShaderType;
+use glam::UVec2;
+
+/// Twin of `Settings` in `beams/node.wesl`.
+#[derive(Clone, Copy, Debug, ShaderType)]
+pub(super) struct Settings {
+    pub wider: f32,
+    pub tiles: UVec2,
+    pub triangles: u32,
+    pub first_cluster: u32,
+    pub cluster_count: u32,
+    pub room: u32,
+    pub is_first: u32,
+}

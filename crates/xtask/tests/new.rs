@@ -19,9 +19,6 @@ const COPIED: [&str; 5] = ["Cargo.toml", "Cargo.lock", "crates", "scenes", "shad
 /// Put into the manifest of the technique crate: its sources are compiled as one test, and nothing
 /// else of them is.
 const AS_A_TEST: &str = "
-[lib]
-path = \"nothing.rs\"
-
 [[test]]
 name = \"made\"
 path = \"src/lib.rs\"
@@ -71,6 +68,7 @@ fn tree_with_new() -> PathBuf {
     }
     let manifest = made.join("crates/reflect/Cargo.toml");
     let text = fs::read_to_string(&manifest).expect("a manifest");
+    let text = text.replacen("[lib]\n", "[lib]\npath = \"nothing.rs\"\n", 1);
     fs::write(&manifest, text + AS_A_TEST).expect("can be written");
     fs::write(made.join("crates/reflect/nothing.rs"), "//! Nothing.\n").expect("can be written");
     for [kind, name] in MADE {

@@ -392,7 +392,7 @@ fn each_diagram_is_in_the_file_that_its_name_says() {
     let to = at(&folder, "b");
     let args = [
         "bench",
-        "control",
+        "estalella",
         "--scene",
         "sphere-square",
         "--quiet",
@@ -404,15 +404,15 @@ fn each_diagram_is_in_the_file_that_its_name_says() {
     assert_eq!(code(&output), 0, "{output:?}");
     // The record's own name of each number: what the diagram is about.
     let called = [
-        ("hierarchy.time_ms.passes.trace.svg", "tracing (ms)"),
         (
-            "hierarchy.work.node_tests.svg",
-            "nodes visited per mirror pixel",
+            "density.vertices.searched.svg",
+            "vertices searched, all mirrors",
         ),
         (
-            "hierarchy.work.evaluations.svg",
-            "triangles tested per mirror pixel",
+            "density.coverage.missing.svg",
+            "share of mirror pixels with an object missing",
         ),
+        ("iterations.work.evaluations.svg", "evaluations per vertex"),
     ];
     for (file, title) in called {
         let svg = std::fs::read_to_string(folder.path().join("b/figures").join(file));

@@ -41,7 +41,12 @@ fn pictures_are_complete() {
             );
             seen += u32::from(*id > mirrors);
         }
-        assert!(seen > 20, "{}: {seen} mirror pixels", scene.name);
+        // One family is about mirrors that are small in the picture.
+        let fewest = match scene.name.starts_with("sphere-small-") {
+            true => 1,
+            false => 20,
+        };
+        assert!(seen >= fewest, "{}: {seen} mirror pixels", scene.name);
         assert!(
             reflected.id.pixels().iter().all(|id| *id <= mirrors),
             "{}",

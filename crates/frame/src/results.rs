@@ -55,6 +55,8 @@ pub struct TrueVertex {
     /// All reflection points: world position and image coordinates (`None` behind the eye's
     /// plane). Empty unless `class` is `Reflected`.
     pub points: Vec<(DVec3, Option<DVec2>)>,
+    /// Parts of the mirror of which it could not be decided whether they hold a point.
+    pub undecided: u64,
 }
 
 /// Region of space a vertex lies in, seen from the eye (Estalella et al. 2005, §6.1).

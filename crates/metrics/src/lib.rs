@@ -30,7 +30,9 @@ pub use pixel::pixel_angle_deg;
 pub use record::{ColorError, Comparison, Coverage, Mismatch, NonFinite, Region, Regions};
 pub use stats::{PairedDifference, Summary, Timing, paired};
 pub use temporal::{Jitter, Temporal, temporal};
-pub use vertices::{Discard, OffsetShare, VertexReport, vertex_errors, vertex_report};
+pub use vertices::{
+    Discard, OffsetShare, SolutionCount, VertexReport, vertex_errors, vertex_report,
+};
 
 use thiserror::Error;
 

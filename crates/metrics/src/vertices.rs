@@ -26,6 +26,11 @@ pub struct VertexReport {
     pub non_finite: u64,
     /// Found true solutions ÷ true solutions in view; found is within 0.75 px. `None` without any.
     pub recall: Option<f64>,
+    /// True and found points, counted.
+    pub solutions: Option<SolutionCount>,
+    /// Parts of mirrors of which it stays undecided whether they hold a true point, of all vertices
+    /// together.
+    pub undecided: Option<u64>,
     /// Searches that met a gap in a hierarchy; `None` for searches without one.
     pub hole: Option<u64>,
     /// Searches that used the enlargement repair; `None` for searches without one.
@@ -49,6 +54,8 @@ impl VertexReport {
             failed: None,
             non_finite: results.iter().filter(|it| is_non_finite(it)).count() as u64,
             recall: None,
+            solutions: None,
+            undecided: None,
             hole: count_flags(results.iter().map(|result| result.hole)),
             enlarged: count_flags(results.iter().map(|result| result.enlarged)),
             offset_px: None,
@@ -56,6 +63,20 @@ impl VertexReport {
             discard: None,
         }
     }
+}
+
+/// How many reflection points there are and were found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct SolutionCount {
+    /// True points in view.
+    #[serde(rename = "true")]
+    pub existing: u64,
+    /// Of those, with an answer within 0.75 px.
+    pub found: u64,
+    /// Answers, stand-ins aside, without a true point within 0.75 px, in view or not; those of vertices
+    /// whose truth is not known do not count.
+    pub spurious: u64,
 }
 
 /// Shares of offsets above a limit.
@@ -103,7 +124,8 @@ pub fn vertex_report(
         });
     }
 
-    let [mut reflected, mut failed, mut solutions, mut recalled] = [0_u64; 4];
+    let [mut reflected, mut failed] = [0_u64; 2];
+    let mut solutions = SolutionCount::default();
     let mut discard = Discard::default();
     let mut offsets = Vec::new();
     for (pair, (group, truth)) in groups.iter().zip(truth).enumerate() {
@@ -118,6 +140,18 @@ pub fn vertex_report(
         if truth.class == VertexClass::Hidden && states().any(|state| state == VertexState::Found) {
             discard.false_keep += 1;
         }
+        // All projected solutions, not only those in view: the nearest one is what was found.
+        let projected: Vec<DVec2> = truth.points.iter().filter_map(|(_, q)| *q).collect();
+        let is_near = |q: DVec2, points: &[DVec2]| {
+            nearest(q, points).is_some_and(|offset| offset <= MATCH_RADIUS_PX)
+        };
+        if truth.class != VertexClass::Unknown {
+            let answers = group.iter().filter(|result| {
+                result.state == VertexState::Found && !result.stand_in && result.at.is_finite()
+            });
+            let spurious = answers.filter(|result| !is_near(result.at.as_dvec2(), &projected));
+            solutions.spurious += spurious.count() as u64;
+        }
         if in_view.is_empty() {
             continue;
         }
@@ -129,13 +163,8 @@ pub fn vertex_report(
         }
 
         let found = found(group);
-        solutions += in_view.len() as u64;
-        recalled += in_view
-            .iter()
-            .filter(|&&q| nearest(q, &found).is_some_and(|offset| offset <= MATCH_RADIUS_PX))
-            .count() as u64;
-        // All projected solutions, not only those in view: the nearest one is what was found.
-        let projected: Vec<DVec2> = truth.points.iter().filter_map(|(_, q)| *q).collect();
+        solutions.existing += in_view.len() as u64;
+        solutions.found += in_view.iter().filter(|&&q| is_near(q, &found)).count() as u64;
         offsets.extend(found.iter().filter_map(|&q| nearest(q, &projected)));
     }
 
@@ -144,7 +173,10 @@ pub fn vertex_report(
         reflected: Some(reflected),
         hidden: Some(hidden.count() as u64),
         failed: Some(failed),
-        recall: (solutions > 0).then(|| recalled as f64 / solutions as f64),
+        recall: (solutions.existing > 0)
+            .then(|| solutions.found as f64 / solutions.existing as f64),
+        solutions: Some(solutions),
+        undecided: Some(truth.iter().map(|truth| truth.undecided).sum()),
         offset_share: offset_share(&offsets),
         offset_px: Summary::of(offsets),
         discard: Some(discard),
@@ -260,7 +292,11 @@ mod tests {
             .iter()
             .map(|&q| (DVec3::ZERO, Some(DVec2::from(q))))
             .collect();
-        TrueVertex { class, points }
+        TrueVertex {
+            class,
+            points,
+            undecided: 0,
+        }
     }
 
     const REFLECTED: VertexClass = VertexClass::Reflected;

@@ -522,6 +522,7 @@ fn offsets_and_jitter() {
             .map(|vertex| TrueVertex {
                 class: VertexClass::Reflected,
                 points: vec![(DVec3::ZERO, Some(place(vertex, 1).as_dvec2()))],
+                undecided: 0,
             })
             .collect();
         let frames: Vec<Vec<VertexResult>> = (2..5)
@@ -605,6 +606,7 @@ fn of_several_answers_those_that_are_found_are_judged() {
         points: [1.0, 5.0]
             .map(|x| (DVec3::ZERO, Some(DVec2::new(x, 0.0))))
             .to_vec(),
+        undecided: 3,
     }];
     let report = |results: &[VertexResult]| vertex_report(results, &truth, |_, _| true).unwrap();
     // One of two solutions, a quarter of a pixel off; the sheet without an image says nothing.
@@ -627,6 +629,17 @@ fn of_several_answers_those_that_are_found_are_judged() {
         (found.recall, found.offset_px.unwrap().max),
         (Some(1.0), 0.5)
     );
+    // An answer to nothing, beside one of the two.
+    let found = report(&[
+        answer(VertexState::Found, 5.5),
+        answer(VertexState::Found, 90.0),
+    ]);
+    let solutions = found.solutions.unwrap();
+    assert_eq!(
+        (solutions.existing, solutions.found, solutions.spurious),
+        (2, 1, 1)
+    );
+    assert_eq!(found.undecided, Some(3));
     // Where none is found, what is called hidden or unreflected is what there is.
     let dropped = report(&[
         answer(VertexState::Unreflected, 7.0),

@@ -144,6 +144,8 @@ pub struct AgainstFull {
 pub struct Times {
     /// Once, before the first frame.
     pub prepare: f64,
+    /// The exact reflection points of the scene's vertices, which searches are compared with; on the CPU.
+    pub exact_points: Option<f64>,
     /// GPU time of a frame; `None` without a usable clock.
     pub frame: Option<Timing>,
     /// Median GPU time by pass, in order.

@@ -11,13 +11,16 @@ use super::row::Record;
 
 /// Fields that this version of the record has not had from the start, wherever they stand: earlier
 /// ones lack them. So do the members of [`GROWING`].
-const LATER: [&str; 10] = [
+const LATER: [&str; 13] = [
     "resolved_by",
     "equal",
     "left_out",
     "more",
     "total",
     "object_agreement_min",
+    "solutions",
+    "undecided",
+    "exact_points",
     "cluster_tests",
     "pairs",
     "longest_list",

@@ -3,7 +3,7 @@
 use catoptric_frame::{Triangles, Work};
 use catoptric_metrics::{
     ColorError, Coverage, Discard, Jitter, Mismatch, More, NonFinite, OffsetShare, Region, Regions,
-    Summary, Temporal, Timing, VertexReport,
+    SolutionCount, Summary, Temporal, Timing, VertexReport,
 };
 use serde_json::{Value, json};
 
@@ -85,6 +85,12 @@ pub fn measured(scene: &str, technique: &str) -> Record {
             failed: Some(0),
             non_finite: 0,
             recall: Some(0.95),
+            solutions: Some(SolutionCount {
+                existing: 80,
+                found: 76,
+                spurious: 3,
+            }),
+            undecided: Some(0),
             hole: Some(0),
             enlarged: Some(0),
             offset_px: Some(SUMMARY),
@@ -139,6 +145,7 @@ pub fn measured(scene: &str, technique: &str) -> Record {
         }),
         time_ms: Some(Times {
             prepare: 12.0,
+            exact_points: Some(30.0),
             frame: Timing::of(&[4.0, 5.0, 6.0]),
             passes: Some(vec![
                 ("gbuffer".to_owned(), 1.0),
@@ -185,6 +192,7 @@ fn design() -> Value {
         "angular_error_deg": summary,
         "color": { "mae": 0, "rmse": 0, "psnr": 0, "ssim": 0, "flip": 0 },
         "vertices": { "searched": 0, "reflected": 0, "hidden": 0, "failed": 0, "recall": 0, "hole": null,
+                      "solutions": { "true": 0, "found": 0, "spurious": 0 },
                       "enlarged": null, "offset_px": summary },
         "triangles": { "in": 2, "drawn": 128, "by_level": [0], "unfinished": 0 },
         "work": { "evaluations": 0, "steps": 0, "node_tests": 0, "samples": 0, "skips": 0 },

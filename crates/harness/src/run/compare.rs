@@ -16,6 +16,8 @@ pub struct Compared {
     pub(super) first: Comparison,
     pub(super) full: Comparison,
     pub(super) vertices: Option<VertexReport>,
+    /// Milliseconds that the exact reflection points took; `None` where nothing is compared with them.
+    pub(super) exact_ms: Option<f64>,
     /// Why there are no exact reflection points to compare with.
     pub(super) no_exact: Option<String>,
     pub(super) pixel_angle: Option<Summary>,
@@ -54,6 +56,7 @@ pub fn compare(scene: &Scene, truth: &Truth, output: &Output) -> Result<Compared
     Ok(Compared {
         first,
         full,
+        exact_ms: (vertices.is_some() && truth.vertices.is_ok()).then_some(truth.vertices_ms),
         no_exact: reason.filter(|_| vertices.is_some()),
         vertices: vertices.transpose().map_err(failed)?,
         pixel_angle: truth.pixel_angle,

@@ -71,7 +71,7 @@ pub fn record(
     });
     row.temporal = rendered.temporal.clone();
     if let Some(samples) = samples {
-        row.time_ms = times(rendered.prepare_ms, &samples);
+        row.time_ms = times(rendered.prepare_ms, compared.exact_ms, &samples);
         let build = row.time_ms.as_ref().and_then(|times| times.build.as_ref());
         if let Some(build) = build {
             row.meta.notes.push(format!(
@@ -88,7 +88,7 @@ pub fn record(
     row
 }
 
-fn times(prepare: f64, samples: &Samples) -> Option<Times> {
+fn times(prepare: f64, exact_points: Option<f64>, samples: &Samples) -> Option<Times> {
     let (passes, passes_reason) = match samples.passes() {
         Ok(passes) => (Some(passes), None),
         Err(reason) => (None, Some(reason)),
@@ -97,6 +97,7 @@ fn times(prepare: f64, samples: &Samples) -> Option<Times> {
     let frame = samples.gpu().and_then(|times| Timing::of(&times));
     Some(Times {
         prepare,
+        exact_points,
         frame,
         passes,
         passes_reason,

@@ -1,5 +1,7 @@
 //! Load → **trace the reference** → render → compare → time → record.
 
+use std::time::Instant;
+
 use catoptric_frame::{Frame, TrueVertex};
 use catoptric_metrics::Summary;
 use catoptric_reference::{NotAvailable, RenderOptions, Tracer, Truth as Bounces, true_vertices};
@@ -15,6 +17,8 @@ pub struct Truth {
     pub full: Frame,
     /// Exact reflection points, by mirror, object and vertex.
     pub vertices: Result<Vec<TrueVertex>, NotAvailable>,
+    /// Milliseconds that finding them took.
+    pub vertices_ms: f64,
     /// What answers in whole pixels are off by.
     pub pixel_angle: Option<Summary>,
 }
@@ -24,12 +28,15 @@ pub fn trace_reference(scene: &Scene, bounces: u32) -> anyhow::Result<Truth> {
     let tracer = Tracer::new(scene)?;
     let first = tracer.render(&RenderOptions::new(size(scene), Bounces::FirstBounce));
     let full = tracer.render(&RenderOptions::new(size(scene), Bounces::Full { bounces }));
+    let start = Instant::now();
     let vertices = true_vertices(scene, &scene.camera.view(size(scene)));
+    let vertices_ms = start.elapsed().as_secs_f64() * 1e3;
     let pixel_angle = catoptric_metrics::pixel_angle_deg(&first)?;
     Ok(Truth {
         first,
         full,
         vertices,
+        vertices_ms,
         pixel_angle,
     })
 }

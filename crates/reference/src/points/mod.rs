@@ -125,6 +125,7 @@ pub fn true_vertices(scene: &Scene, view: &View) -> Result<Vec<TrueVertex>, NotA
             let project = |point: DVec3| (point, view.project(point).map(|(at, _)| at));
             TrueVertex {
                 class: solutions.class,
+                undecided: solutions.undecided,
                 points: solutions.points.into_iter().map(project).collect(),
             }
         })

@@ -113,6 +113,18 @@ mod tests {
     }
 
     #[test]
+    fn a_technique_that_is_as_good_everywhere_is_said_to_be() {
+        let mut rows = ["one", "other"].map(|scene| measured(scene, "linear"));
+        let html = render(&rows, 2).unwrap();
+        assert!(html.contains("98.1 % of the mirror pixels of each of 2 scenes."));
+        rows[1].object_agreement = Some(0.5);
+        let html = render(&rows, 2).unwrap();
+        assert!(
+            html.contains("50.0 % (<i>other</i>) to 98.1 % (<i>one</i>) of the mirror pixels.")
+        );
+    }
+
+    #[test]
     fn names_cannot_break_out_of_the_page() {
         let html = render(&[measured("<script>x</script>", "linear")], 1).unwrap();
         assert!(!html.contains("<script>x"));

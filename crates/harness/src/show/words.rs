@@ -286,6 +286,11 @@ pub fn lead(rows: &[Record], techniques: &[String]) -> Vec<String> {
                     "<b>{}</b> shows the right object on {} of the mirror pixels of <i>{}</i>{alone}.",
                     escape(technique), percent(*low), escape(worst)
                 )
+            } else if percent(*low) == percent(*high) {
+                format!(
+                    "<b>{}</b> shows the right object on {} of the mirror pixels of each of {} scenes.",
+                    escape(technique), percent(*low), found.len()
+                )
             } else {
                 format!(
                     "<b>{}</b> shows the right object on {} (<i>{}</i>) to {} (<i>{}</i>) of the mirror pixels.",

@@ -10,11 +10,11 @@ use crate::suites::paths::{
     UNRESOLVED,
 };
 
-use super::grid::{ACCELERATED, ANALYTIC, ANALYTIC_EFFICIENT, EFFICIENT, PLAIN, SELF_REFLECTING};
-use super::published::{CELLS, OURS};
-use super::results::{MAPPED, TRACED as TRACED_SCENES};
-use super::sweeps::{EIGHT, ENVIRONMENT, ONE, SWEPT, THREE};
-use super::techniques::{DISTANT, GROWTH, NEAR, TOUCHING};
+use super::labels::{ACCELERATED, ANALYTIC, ANALYTIC_EFFICIENT, EFFICIENT, PLAIN, SELF_REFLECTING};
+use super::labels::{DISTANT, GROWTH, NEAR, TOUCHING};
+use super::labels::{EIGHT, ENVIRONMENT, ONE, SWEPT, THREE};
+use super::labels::{MAPPED, TRACED as TRACED_SCENES};
+use super::printed::{CELLS, OURS};
 
 const Z17: Paper = Paper::Ciz2017;
 

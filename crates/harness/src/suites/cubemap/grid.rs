@@ -7,6 +7,7 @@ use crate::suites::series::{Ask, Point, Series};
 
 use super::claims;
 use super::data::{nodes, quantities};
+use super::labels::{ACCELERATED, ANALYTIC, ANALYTIC_EFFICIENT, EFFICIENT, PLAIN, SELF_REFLECTING};
 
 /// What is varied beside the flags.
 #[derive(Clone, Copy)]
@@ -52,13 +53,6 @@ const FLAGS: [(&str, &str); 9] = [
         "criterion=analytic,accept=any,pyramid=published,sampling=texel,bounces=3",
     ),
 ];
-/// Places of flags in that list.
-pub const PLAIN: usize = 0;
-pub const ACCELERATED: usize = 1;
-pub const EFFICIENT: usize = 2;
-pub const ANALYTIC: usize = 3;
-pub const ANALYTIC_EFFICIENT: usize = 5;
-pub const SELF_REFLECTING: usize = 7;
 
 /// On what the thesis measured; its first scene has 846 triangles, as our box.
 const SMALL: &str = "GT 540M, 320×240, faces of 256²";

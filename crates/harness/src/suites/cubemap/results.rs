@@ -17,10 +17,7 @@ use crate::suites::suite::{Picture, Studio};
 
 use super::claims;
 use super::data::{SIZE, quantities};
-
-/// Series.
-pub const TRACED: &str = "cubemap trace";
-pub const MAPPED: &str = "environment map";
+use super::labels::{MAPPED, TRACED};
 
 /// Small, middle and large; of a teapot each.
 const SCENES: [(&str, &str); 3] = [

@@ -11,6 +11,7 @@ use crate::suites::series::{Ask, Series};
 
 use super::claims;
 use super::data::{point, quantities};
+use super::labels::{ENVIRONMENT, SWEPT};
 use super::options::{cubemap, figure, values};
 
 pub fn figures(scene: Option<&str>, scenes: &[&str]) -> Vec<Figure> {
@@ -21,19 +22,6 @@ pub fn figures(scene: Option<&str>, scenes: &[&str]) -> Vec<Figure> {
         bounces(scene),
     ]
 }
-
-/// Sizes of faces and numbers of maps are swept with the criterion that does not err at
-/// discontinuities, and with the published one.
-pub const SWEPT: [(&str, &str); 2] = [
-    ("continuous sign changes", "sampling=texel,pyramid=sound"),
-    (
-        "any, as published",
-        "sampling=texel,pyramid=sound,accept=any",
-    ),
-];
-
-/// The baseline's label and name.
-pub const ENVIRONMENT: &str = "environment-map";
 
 fn sweep(scenes: &[&str], xs: &[u32], option: &str, environment: bool) -> Vec<Series> {
     let mut series = Vec::new();
@@ -156,11 +144,6 @@ const BOUNCES: [(&str, &str); 6] = [
     ("3, clear sample", "bounces=3,restart=clear"),
     ("3, published bias", "bounces=3,bias=0.0005,accept=any"),
 ];
-
-/// Places in that list.
-pub const ONE: usize = 0;
-pub const THREE: usize = 1;
-pub const EIGHT: usize = 2;
 
 fn bounces(scene: Option<&str>) -> Figure {
     let scenes = [scene.unwrap_or("bowl")];

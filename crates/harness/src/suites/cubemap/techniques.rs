@@ -11,6 +11,7 @@ use crate::suites::shelf;
 
 use super::claims;
 use super::data::point;
+use super::labels::{DISTANT, GROWTH, NEAR, TOUCHING};
 
 /// Label and technique.
 const ALL: [(&str, &str); 11] = [
@@ -38,9 +39,6 @@ pub fn figures(scene: Option<&str>) -> Vec<Figure> {
 }
 
 const IN_MIRRORS: &str = "mirrors in mirrors";
-pub const NEAR: &str = "near objects";
-pub const DISTANT: &str = "distant objects";
-pub const TOUCHING: &str = "touching objects";
 
 /// Scenes that each ask for one ability.
 const ABILITIES: [(&str, &str); 5] = [
@@ -100,19 +98,6 @@ const GROWING: [(&str, u32); 4] = [
     ("1k", 1_024),
     ("10k", 10_000),
     ("100k", 99_856),
-];
-
-/// Label and technique; the first one is what the claim is about.
-pub const GROWTH: [(&str, &str); 6] = [
-    ("cubemap trace", "cubemap-trace(pyramid=sound)"),
-    (
-        "cubemap trace, redrawn",
-        "cubemap-trace(pyramid=sound,update=frame)",
-    ),
-    ("environment map", "environment-map"),
-    ("linear", "linear"),
-    shelf::REFLECTOR_CUBEMAP,
-    ("ray trace (control)", "ray-trace"),
 ];
 
 fn growth() -> Figure {

@@ -9,6 +9,7 @@
 
 mod claims;
 mod data;
+mod labels;
 mod more;
 mod pictures;
 

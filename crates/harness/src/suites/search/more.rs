@@ -11,20 +11,10 @@ use crate::suites::shelf;
 
 use super::claims;
 use super::data::{ENLARGED, LINEAR, RAW};
-
-/// Both searches where all is reflected, and where a part is not.
-pub const ALL_REFLECTED: &str = "hierarchy, all reflected";
-pub const PARTLY_HIDDEN: &str = "hierarchy, some hidden";
-/// Series of the sweeps.
-pub const CONE: &str = "cones' factor";
-pub const SPHERE: &str = "spheres' factor";
-pub const STOP: &str = "stopped early";
-/// The search of another paper, in maps of the mirror.
-pub const REFLECTOR: &str = "reflector cubemap";
-/// Series of the pictures.
-pub const EXACT_LINEAR: &str = "linear";
-pub const ENVIRONMENT: &str = "environment map";
-pub const EXACT_PLANAR: &str = "planar";
+use super::labels::{
+    ALL_REFLECTED, CONE, ENVIRONMENT, EXACT_LINEAR, EXACT_PLANAR, PARTLY_HIDDEN, REFLECTOR, SPHERE,
+    STOP,
+};
 
 /// How much wider the views are.
 const WIDER: [(f64, &str); 4] = [

@@ -11,12 +11,12 @@ use crate::suites::paths::{
 };
 
 use super::data::{ADAPTIVE, FULL, NONE};
-use super::facets::FOUR;
-use super::more::{
+use super::labels::FOUR;
+use super::labels::{
     COARSE, ELLIPSOID, FINE, HIERARCHY_ADAPTIVE, HIERARCHY_FULL, LARGE_MIRROR, MOTION,
     SMALL_MIRROR, SPHERE, THOUSANDTH,
 };
-use super::square::{HIDDEN, SEARCH, TO_FIVE};
+use super::labels::{HIDDEN, SEARCH, TO_FIVE};
 
 const T13: Paper = Paper::Szabo2013;
 const C13: Paper = Paper::SzaboCescg;

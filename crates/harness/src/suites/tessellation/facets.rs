@@ -7,12 +7,12 @@ use crate::suites::series::{Ask, Point, Series};
 
 use super::claims;
 use super::data::{BY_EYE, NONE, THRESHOLD, adaptive, full, quantities};
+use super::labels::FOUR;
 
 /// The scene's fine floor, split twice, is 180 000 triangles.
 const SIZE: [u32; 2] = [320, 240];
 const LEVEL: u32 = 2;
 
-pub const FOUR: &str = "linear search";
 const EIGHT: &str = "with eight neighbours";
 
 /// CESCG Fig. 10b.

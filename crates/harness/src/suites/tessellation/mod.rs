@@ -10,6 +10,7 @@ mod claims;
 mod data;
 mod facets;
 mod geometry;
+mod labels;
 mod more;
 mod square;
 mod table;

@@ -11,23 +11,14 @@ use super::claims;
 use super::data::{
     ADAPTIVE, FULL, SQUARE, TABLE, THRESHOLD, adaptive, full, quantities, three_modes,
 };
-
-/// Series: objects of the table that are modelled coarsely and finely.
-pub const COARSE: &str = "coarse";
-pub const FINE: &str = "fine";
-pub const HIERARCHY_FULL: &str = "hierarchy, full";
-pub const HIERARCHY_ADAPTIVE: &str = "hierarchy, adaptive";
-pub const SPHERE: &str = "sphere";
-pub const ELLIPSOID: &str = "ellipsoid";
-pub const LARGE_MIRROR: &str = "large in the picture";
-pub const SMALL_MIRROR: &str = "four times smaller";
-pub const MOTION: &str = "adaptive";
+use super::labels::{
+    COARSE, ELLIPSOID, FINE, HIERARCHY_ADAPTIVE, HIERARCHY_FULL, LARGE_MIRROR, MOTION,
+    SMALL_MIRROR, SPHERE,
+};
 
 /// Level limits of the sweep under both searches.
 const LEVELS: u32 = 5;
 const THRESHOLDS: [&str; 5] = ["0.1", "0.01", "0.001", "0.0001", "0.00001"];
-/// Where the thesis' threshold stands among them.
-pub const THOUSANDTH: f64 = 2.0;
 /// Frames of the path that are followed.
 const FRAMES: u32 = 12;
 /// The size of what is measured on the table.

@@ -12,20 +12,16 @@ use super::data::{
     ADAPTIVE, BY_EYE, FULL, NONE, PAPERS, SQUARE, THRESHOLD, WHOLE_PIXELS, adaptive,
     adaptive_on_mesh, full, quantities, three_modes,
 };
+use super::labels::{HIDDEN, SEARCH, TO_FIVE};
 
 /// Level limits: those of Fig. 6.3, and on to triangles smaller than pixels.
 const LEVELS: u32 = 8;
 
-/// A square of which the mirror hides a part; splits at its outline run to any limit.
-pub const HIDDEN: &str = "adaptive, some hidden";
 const SQUARE_HIDDEN: &str = "sphere-square-hidden";
 const HIDDEN_LEVELS: u32 = 4;
 
 /// The level at which Fig. 5.3 and 5.4 are made.
 const SHOWN_LEVEL: u32 = 5;
-
-/// Series of the figures that show methods side by side.
-pub const SEARCH: &str = "linear search";
 
 /// Thesis Fig. 1.5.
 pub fn straight(scene: &str) -> Figure {
@@ -243,5 +239,3 @@ pub fn cracks(scene: &str) -> Figure {
         claims: claims::CRACK,
     }
 }
-
-pub const TO_FIVE: &str = "up to 5 levels";

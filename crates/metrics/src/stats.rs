@@ -95,7 +95,8 @@ impl Timing {
 }
 
 /// Median of `b − a` over pairs measured together, with its 95 % bootstrap interval.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
 pub struct PairedDifference {
     /// Median difference; negative if `b` is smaller.
     pub median: f64,

@@ -25,6 +25,7 @@ mod triangles;
 pub use error::{NotAvailable, ReferenceError};
 pub use points::{
     Solutions, in_view, points_in_view, reflection_points, reflections, true_vertices,
+    true_vertices_watched,
 };
 pub use render::{PixelTrace, Reflection, RenderOptions, Truth};
 pub use tracer::{Hit, RayStart, Surface, Tracer};

@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 
 use catoptric_frame::{Triangles, Work};
 use catoptric_metrics::{
-    ColorError, Coverage, Mismatch, More, NonFinite, Regions, Summary, Temporal, Timing,
-    VertexReport,
+    ColorError, Coverage, Mismatch, More, NonFinite, PairedDifference, Regions, Summary, Temporal,
+    Timing, VertexReport,
 };
 use schemars::JsonSchema;
 use serde::ser::SerializeMap;
@@ -120,8 +120,10 @@ pub struct Steadiness {
     pub object_agreement_min: Option<f64>,
     /// Median GPU time of a moving frame in milliseconds; `None` without a usable clock.
     pub frame_ms: Option<f64>,
-    /// The same of frames at rest, timed right before and after.
+    /// The same of frames at rest, each in the pose of a moving frame and timed right after it.
     pub still_ms: Option<f64>,
+    /// What a moving frame takes more than the one at rest after it; `None` of few frames.
+    pub added_ms: Option<PairedDifference>,
     /// Mean evaluations a search, from the second frame on.
     pub evaluations: Option<f64>,
     /// Mean steps a search, from the second frame on.

@@ -11,13 +11,14 @@ use super::row::Record;
 
 /// Fields that this version of the record has not had from the start, wherever they stand: earlier
 /// ones lack them. So do the members of [`GROWING`].
-const LATER: [&str; 13] = [
+const LATER: [&str; 14] = [
     "resolved_by",
     "equal",
     "left_out",
     "more",
     "total",
     "object_agreement_min",
+    "added_ms",
     "solutions",
     "undecided",
     "exact_points",

@@ -2,8 +2,8 @@
 
 use catoptric_frame::{Triangles, Work};
 use catoptric_metrics::{
-    ColorError, Coverage, Discard, Jitter, Mismatch, More, NonFinite, OffsetShare, Region, Regions,
-    SolutionCount, Summary, Temporal, Timing, VertexReport,
+    ColorError, Coverage, Discard, Jitter, Mismatch, More, NonFinite, OffsetShare,
+    PairedDifference, Region, Regions, SolutionCount, Summary, Temporal, Timing, VertexReport,
 };
 use serde_json::{Value, json};
 
@@ -136,6 +136,12 @@ pub fn measured(scene: &str, technique: &str) -> Record {
             object_agreement_min: Some(0.9),
             frame_ms: Some(1.0),
             still_ms: Some(1.0),
+            added_ms: Some(PairedDifference {
+                median: 0.1,
+                low: -0.1,
+                high: 0.2,
+                significant: false,
+            }),
             evaluations: Some(5.0),
             steps: Some(1.0),
         }),

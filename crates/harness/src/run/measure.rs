@@ -57,8 +57,7 @@ pub fn measure(
             }
         };
         let doing = |what: &str| setup.progress.doing(format!("{}: {what}", scene.name));
-        doing("tracing the reference");
-        let truth = trace_reference(scene, setup.bounces)?;
+        let truth = trace_reference(scene, setup.bounces, &setup.progress)?;
 
         for techniques in job.techniques.chunks(IN_TURN) {
             if interrupted() && !rows.is_empty() {

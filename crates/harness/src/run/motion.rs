@@ -7,7 +7,7 @@
 //! (`start=previous`), it is so in both.
 
 use catoptric_frame::{Frame, TrueVertex};
-use catoptric_metrics::{MetricsError, Timing, object_agreement, temporal, vertex_errors};
+use catoptric_metrics::{MetricsError, Timing, object_agreement, paired, temporal, vertex_errors};
 use catoptric_reference::{NotAvailable, RenderOptions, Tracer, Truth, true_vertices};
 use catoptric_reflect::Output;
 use catoptric_scene::Scene;
@@ -105,24 +105,21 @@ impl Seen {
         scene: &Scene,
     ) -> Result<Steadiness, RowError> {
         let prepared = &mut rendered.prepared;
-        let mut timed = |moving: bool, frames: u64| -> Result<Vec<Option<f64>>, RowError> {
-            let mut times = Vec::new();
-            for frame in 0..frames as u32 {
-                let posed = scene.at(if moving { frame } else { 0 });
-                prepared.update(&posed).map_err(|error| failed(&error))?;
+        // A frame that has just moved and one that rests in the same pose, in turn: what else the
+        // pose changes, and what else the machine does, both have.
+        let (mut moving, mut still) = (Vec::new(), Vec::new());
+        for frame in 0..self.frames as u32 {
+            let posed = scene.at(frame);
+            prepared.update(&posed).map_err(|error| failed(&error))?;
+            for times in [&mut moving, &mut still] {
                 let time = prepared.time_frame().map_err(|error| failed(&error))?;
                 times.push(time.gpu_ms);
             }
-            Ok(times)
-        };
-        let before = self.frames / 2;
-        let mut still = timed(false, before)?;
-        let moving = timed(true, self.frames)?;
-        still.extend(timed(false, self.frames - before)?);
-        let median = |times: Vec<Option<f64>>| {
-            let times: Option<Vec<f64>> = times.into_iter().collect();
-            Some(Timing::of(&times?)?.median)
-        };
+        }
+        let all = |times: Vec<Option<f64>>| times.into_iter().collect::<Option<Vec<f64>>>();
+        let (moving, still) = (all(moving), all(still));
+        let added = moving.as_deref().zip(still.as_deref());
+        let median = |times: Option<Vec<f64>>| Some(Timing::of(&times?)?.median);
         prepared.update(scene).map_err(|error| failed(&error))?;
         let mean = |values: &[f64]| {
             let sum: f64 = values.iter().sum();
@@ -133,6 +130,7 @@ impl Seen {
         Ok(Steadiness {
             points,
             object_agreement_min: self.object_agreement_min,
+            added_ms: added.and_then(|(moving, still)| paired(still, moving)),
             frame_ms: median(moving),
             still_ms: median(still),
             evaluations: mean(&self.evaluations),

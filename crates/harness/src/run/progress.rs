@@ -40,6 +40,12 @@ impl Progress {
         self.bar.set_message(in_a_line(&what.into()).into_owned());
     }
 
+    /// Says what is being done now, and which share of it is.
+    pub fn part(&self, what: &str, done: usize, all: usize) {
+        let percent = 100 * done / all.max(1);
+        self.doing(format!("{what}, {percent} %"));
+    }
+
     /// One step is finished.
     pub fn step(&self) {
         self.steps(1);

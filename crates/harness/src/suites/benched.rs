@@ -12,6 +12,7 @@ use catoptric_scene::{LoadOptions, Scene};
 
 use crate::options::Common;
 use crate::run::compare::{Compared, compare};
+use crate::run::progress::Progress;
 use crate::run::render::{Rendered, render};
 use crate::run::truth::{Truth, trace_reference};
 
@@ -239,7 +240,7 @@ impl Judged {
             ..LoadOptions::default()
         };
         let scene = catoptric_scene::open(scene, &options)?;
-        let truth = trace_reference(&scene, Common::default().bounces)?;
+        let truth = trace_reference(&scene, Common::default().bounces, &Progress::new(0, true))?;
         Ok(Self { scene, truth })
     }
 

@@ -31,6 +31,8 @@ mod sphere;
 mod stationary;
 mod torus;
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use catoptric_frame::{Frame, Status, TrueVertex, VertexClass};
 use catoptric_scene::{Scene, Shape, View};
 use glam::{DVec2, DVec3};
@@ -97,6 +99,19 @@ pub fn reflections(
 /// # Errors
 /// If no mirror has exact answers ([`reflection_points`]).
 pub fn true_vertices(scene: &Scene, view: &View) -> Result<Vec<TrueVertex>, NotAvailable> {
+    true_vertices_watched(scene, view, &|_, _| ())
+}
+
+/// As [`true_vertices`], and says now and then how many answers are found, of how many: those of a
+/// finely cut mesh mirror take minutes.
+///
+/// # Errors
+/// As [`true_vertices`].
+pub fn true_vertices_watched(
+    scene: &Scene,
+    view: &View,
+    progress: &(dyn Fn(usize, usize) + Sync),
+) -> Result<Vec<TrueVertex>, NotAvailable> {
     let mirrors: Vec<_> = scene
         .mirrors
         .iter()
@@ -113,10 +128,16 @@ pub fn true_vertices(scene: &Scene, view: &View) -> Result<Vec<TrueVertex>, NotA
         .map(|position| position.as_dvec3())
         .collect();
     let count = positions.len();
-    let answers = (0..mirrors.len() * count)
+    let all = mirrors.len() * count;
+    let finished = AtomicUsize::new(0);
+    let answers = (0..all)
         .into_par_iter()
         .with_min_len(64)
         .map(|index| {
+            let before = finished.fetch_add(1, Ordering::Relaxed);
+            if before.is_multiple_of(64) {
+                progress(before, all);
+            }
             let vertex = positions[index % count];
             let solutions = match &mirrors[index / count] {
                 Ok(mirror) => mirror.points(view.eye, vertex),

@@ -25,6 +25,12 @@ impl Gpu {
         self.budget.take_fault().map_or(Ok(()), Err)
     }
 
+    /// Bytes of buffers and textures made since the last [`Gpu::begin`], and kept.
+    #[cfg(test)]
+    pub(crate) fn made(&self) -> u64 {
+        self.budget.bytes()
+    }
+
     /// Refuses what takes more memory than there may be.
     ///
     /// # Errors

@@ -70,10 +70,13 @@ pub fn trees(scene: &str) -> Figure {
     let published = ["fraction=0.041", "fraction=0.096", "fraction=0.143"];
     let trees = [
         "cells=octree,error=1",
+        "cells=octree,error=0.5",
         "cells=octree",
-        "cells=octree,error=0.25",
     ];
-    let polished = ["cells=octree,error=1,polish=1", "cells=octree,polish=1"];
+    let polished = [
+        "cells=octree,error=1,polish=1",
+        "cells=octree,error=0.5,polish=1",
+    ];
     Figure {
         anchor: "trees",
         title: "Cells where the picture asks for them".to_owned(),

@@ -79,7 +79,7 @@ options! {
         /// 1: a Newton step on the G-buffer from each interpolated reflection point
         polish: u32 = 0 in 0..=1,
         /// largest miss of a centre's image, in pixels, in a cell that is not divided (cells=octree)
-        error: f64 = 0.5 in 0.0..=1e6,
+        error: f64 = 0.25 in 0.0..=1e6,
     }
 }
 

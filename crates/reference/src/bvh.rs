@@ -29,38 +29,18 @@ use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 use obvhs::splits::split_aabbs_preset;
 use obvhs::triangle::Triangle;
 
-pub use walk::Work;
+pub use walk::{TriangleHit, Work};
 
 /// Boxes grow by this share of the triangles' extent: some 30 rounding steps of f32. (No component
 /// of a direction counts as smaller than f32's epsilon; this is also enough for rays that run
 /// along an axis inside a flat box.)
 const PADDING: f64 = 4e-6;
 
-/// Distances are the same if they are apart by no more than this share of the triangles' extent, or
-/// of themselves: some thousand rounding steps of f64, and far below what f32 resolves.
-const EQUAL: f64 = 1e-12;
-
 /// Triangles in a hierarchy.
 pub struct TriangleBvh {
-    wide: wide::Wide,
-    blocks: Vec<leaf::Block>,
+    tree: walk::Tree,
     triangles: usize,
-    center: DVec3,
-    radius: f64,
     level: Level,
-}
-
-/// Where a ray meets a triangle.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TriangleHit {
-    /// Index into the triangles the hierarchy was built from.
-    pub triangle: u32,
-    /// Distance along the (unit) ray.
-    pub t: f64,
-    /// Weights of the corners, summing to 1.
-    pub barycentric: DVec3,
-    /// The triangle's corners.
-    pub corners: [DVec3; 3],
 }
 
 impl TriangleBvh {
@@ -83,18 +63,20 @@ impl TriangleBvh {
             wide::fold(&build(triangles, center, radius), triangles)
         };
         Self {
-            wide,
-            blocks,
+            tree: walk::Tree {
+                wide,
+                blocks,
+                center,
+                radius,
+            },
             triangles: triangles.len(),
-            center,
-            radius,
             level: Level::new(),
         }
     }
 
     /// Half the diagonal of the bounding box of all triangles.
     pub fn radius(&self) -> f64 {
-        self.radius
+        self.tree.radius
     }
 
     /// Nearest triangle with `t_min < t < t_max` along the ray (`dir` of unit length), whichever
@@ -124,8 +106,7 @@ impl TriangleBvh {
             dir,
             within: t_min..t_max,
         };
-        let found =
-            dispatch!(self.level, simd => walk::nearest(simd, self, &query, &mut (), &accepts));
+        let found = dispatch!(self.level, simd => walk::nearest(simd, &self.tree, &query, &mut (), &accepts));
         found.map(|found| found.hit)
     }
 
@@ -156,7 +137,7 @@ impl TriangleBvh {
         };
         let all = |_| true;
         let found =
-            dispatch!(self.level, simd => walk::nearest(simd, self, &query, observer, &all))?;
+            dispatch!(self.level, simd => walk::nearest(simd, &self.tree, &query, observer, &all))?;
         let mut hit = found.hit;
         if found.tied {
             // Each time a lower index, so that it ends.
@@ -215,8 +196,8 @@ impl std::fmt::Debug for TriangleBvh {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("TriangleBvh")
             .field("triangles", &self.triangles)
-            .field("center", &self.center)
-            .field("radius", &self.radius)
+            .field("center", &self.tree.center)
+            .field("radius", &self.tree.radius)
             .finish_non_exhaustive()
     }
 }

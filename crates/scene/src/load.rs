@@ -1,21 +1,12 @@
 //! From a name or a path to a complete scene.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::file::{Origin, read};
+use crate::load_options::LoadOptions;
 use crate::loading::Loading;
 use crate::suggest::suggest;
 use crate::{Scene, SceneError, builtin};
-
-/// How to load a scene.
-#[derive(Clone, Debug, Default)]
-pub struct LoadOptions {
-    /// Folder of models that are not beside the scene file.
-    pub models: Option<PathBuf>,
-    /// Replaces the scene file's resolution: width and height in pixels. Points that are
-    /// constructed backwards from image positions depend on it.
-    pub resolution: Option<[u32; 2]>,
-}
 
 /// Loads a built-in scene by its name, or a scene file by its path (ending in `.toml`).
 pub fn open(name_or_path: &str, options: &LoadOptions) -> Result<Scene, SceneError> {
@@ -65,4 +56,11 @@ pub fn open(name_or_path: &str, options: &LoadOptions) -> Result<Scene, SceneErr
             loading: Loading::default(),
         },
     )
+}
+
+impl Scene {
+    /// Loads a built-in scene by its name, or a scene file by its path; the same as [`open`].
+    pub fn load(name_or_path: &str, options: &LoadOptions) -> Result<Self, SceneError> {
+        open(name_or_path, options)
+    }
 }

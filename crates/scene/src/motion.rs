@@ -7,9 +7,8 @@
 
 use glam::{DMat3, DVec3};
 
-use crate::hash::hash;
+use crate::camera::Camera;
 use crate::pose::Pose;
-use crate::{Camera, Scene};
 
 /// How a scene changes over its frames.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,48 +59,10 @@ pub struct Move {
 /// What a [`Move`] moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Subject {
-    /// Index into [`Scene::objects`].
+    /// Index into the scene's objects.
     Object(usize),
-    /// Index into [`Scene::mirrors`].
+    /// Index into the scene's mirrors.
     Mirror(usize),
-}
-
-impl Scene {
-    /// Number of frames; 1 where nothing moves.
-    pub fn frames(&self) -> u32 {
-        self.motion.as_ref().map_or(1, |motion| motion.frames)
-    }
-
-    /// The scene as it stands at a frame, with nothing moving any more and the hash of what it
-    /// shows. Frame 0 is the scene as written; past the last frame everything stays where it is.
-    pub fn at(&self, frame: u32) -> Self {
-        let mut posed = Self {
-            motion: None,
-            ..self.clone()
-        };
-        let Some(motion) = &self.motion else {
-            return posed;
-        };
-        let time = motion.time(frame);
-        if time == 0.0 {
-            return posed;
-        }
-        posed.camera = motion.camera_at(&self.camera, time);
-        for step in &motion.moves {
-            let pose = step.pose(time);
-            match step.subject {
-                Subject::Object(index) => pose.carry(&mut posed.objects[index].mesh),
-                Subject::Mirror(index) => posed.mirrors[index].shape.carry(&pose),
-            }
-        }
-        posed.hash = hash(
-            &posed.camera,
-            &posed.background,
-            &posed.objects,
-            &posed.mirrors,
-        );
-        posed
-    }
 }
 
 impl Motion {
@@ -142,7 +103,8 @@ impl Motion {
 }
 
 impl Move {
-    fn pose(&self, time: f64) -> Pose {
+    /// Where its subject is at a time in [0, 1].
+    pub(crate) fn pose(&self, time: f64) -> Pose {
         Pose::new(self.rotate_deg * time, self.about, self.translate * time)
     }
 }

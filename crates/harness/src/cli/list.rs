@@ -39,7 +39,7 @@ pub fn run(args: &Args, common: &Common) -> anyhow::Result<Outcome> {
 }
 
 fn scenes(common: &Common) -> anyhow::Result<()> {
-    let infos = catoptric_scene::builtin::list(&load_options(common));
+    let infos = catoptric_scene::list::builtin(&load_options(common));
     let rows = infos
         .iter()
         .map(serde_json::to_value)

@@ -105,7 +105,7 @@ fn scenes(asked: &Asked<'_>, own: impl Fn() -> Vec<String>) -> Vec<String> {
 
 /// Names of the built-in scenes whose models are here.
 fn available(load: &LoadOptions) -> Vec<String> {
-    let infos = catoptric_scene::builtin::list(load).into_iter();
+    let infos = catoptric_scene::list::builtin(load).into_iter();
     let infos = infos.filter(|info| info.available);
     infos.map(|info| info.name).collect()
 }

@@ -1,5 +1,6 @@
 use proptest::prelude::*;
 
+use super::walk::EQUAL;
 use super::*;
 
 fn point() -> impl Strategy<Value = Vec3> {
@@ -25,8 +26,8 @@ fn brute_force(bvh: &TriangleBvh, triangles: &[[Vec3; 3]], ray: [DVec3; 2]) -> O
     });
     let hits: Vec<_> = hits.collect();
     let nearest = hits.iter().map(|hit| hit.t).min_by(f64::total_cmp)?;
-    let skip = ((bvh.center - origin).dot(dir) - bvh.radius * 1.001).max(0.0);
-    let last = nearest + EQUAL * (bvh.radius + skip);
+    let skip = ((bvh.tree.center - origin).dot(dir) - bvh.tree.radius * 1.001).max(0.0);
+    let last = nearest + EQUAL * (bvh.tree.radius + skip);
     hits.into_iter().find(|hit| hit.t <= last)
 }
 
@@ -70,7 +71,7 @@ proptest! {
             prop_assert_eq!(unlimited(&bvh, origin, dir), expected, "{:?}", level);
         }
         // A hierarchy too deep for the stack without an allocation.
-        bvh.wide.stack = 1000;
+        bvh.tree.wide.stack = 1000;
         prop_assert_eq!(unlimited(&bvh, origin, dir), expected);
     }
 
@@ -147,7 +148,7 @@ fn hierarchies_of_alike_triangles_are_shallow() {
         let start = std::time::Instant::now();
         let bvh = TriangleBvh::new(&triangles);
         // Seven of eight children wait at each level.
-        let levels = bvh.wide.stack / 7;
+        let levels = bvh.tree.wide.stack / 7;
         println!("{levels} levels, {:?}", start.elapsed());
         assert!(levels < 40, "{levels} levels");
     }

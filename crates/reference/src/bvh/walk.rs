@@ -6,11 +6,37 @@ use fearless_simd::{Simd, SimdBase, f32x8, prelude::*};
 use glam::{DVec3, Vec3};
 
 use super::leaf::{Block, Sheared};
-use super::wide::{Child, Kind, LANES};
-use super::{EQUAL, TriangleBvh, TriangleHit};
+use super::wide::{Child, Kind, LANES, Wide};
 
 /// So many may wait without a heap allocation; 66 444 triangles of architecture need 71.
 const STACK: usize = 128;
+
+/// Distances are the same if they are apart by no more than this share of the triangles' extent, or
+/// of themselves: some thousand rounding steps of f64, and far below what f32 resolves.
+pub(super) const EQUAL: f64 = 1e-12;
+
+/// A hierarchy over triangles.
+pub(super) struct Tree {
+    pub(super) wide: Wide,
+    pub(super) blocks: Vec<Block>,
+    /// Middle of the triangles' bounding box, world space; `wide` is relative to it.
+    pub(super) center: DVec3,
+    /// Half the diagonal of that box.
+    pub(super) radius: f64,
+}
+
+/// Where a ray meets a triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TriangleHit {
+    /// Index into the triangles the hierarchy was built from.
+    pub triangle: u32,
+    /// Distance along the (unit) ray.
+    pub t: f64,
+    /// Weights of the corners, summing to 1.
+    pub barycentric: DVec3,
+    /// The triangle's corners.
+    pub corners: [DVec3; 3],
+}
 
 /// A ray, and between which distances it may hit.
 pub(super) struct Query {
@@ -66,26 +92,26 @@ fn waiting(near: f32, child: Child) -> u64 {
     (u64::from(near.to_bits()) << 32) | u64::from(child.0)
 }
 
-/// Nearest triangle of `bvh` that the ray hits, of those that are accepted by their index.
+/// Nearest triangle of `tree` that the ray hits, of those that are accepted by their index.
 #[inline(always)]
 pub(super) fn nearest<S: Simd, O: Observer>(
     simd: S,
-    bvh: &TriangleBvh,
+    tree: &Tree,
     query: &Query,
     observer: &mut O,
     accepts: &impl Fn(u32) -> bool,
 ) -> Option<Found> {
     let mut small = [0; STACK];
     let mut large;
-    let stack: &mut [u64] = if bvh.wide.stack <= STACK {
+    let stack: &mut [u64] = if tree.wide.stack <= STACK {
         &mut small
     } else {
-        large = vec![0; bvh.wide.stack];
+        large = vec![0; tree.wide.stack];
         &mut large
     };
-    let to_center = bvh.center - query.origin;
+    let to_center = tree.center - query.origin;
     // A ray that meets the bounding sphere at all meets it no earlier than here.
-    let skip = (to_center.dot(query.dir) - bvh.radius * 1.001).max(0.0);
+    let skip = (to_center.dot(query.dir) - tree.radius * 1.001).max(0.0);
     let start = (skip * query.dir - to_center).as_vec3();
     let dir = query.dir.as_vec3();
     let inverse = Vec3::new(inverse(dir.x), inverse(dir.y), inverse(dir.z));
@@ -103,15 +129,15 @@ pub(super) fn nearest<S: Simd, O: Observer>(
     let mut place = None;
     let mut barycentric = DVec3::ZERO;
     let mut tied = false;
-    let equal = EQUAL * (bvh.radius + skip);
+    let equal = EQUAL * (tree.radius + skip);
     let mut limit = above(query.within.end - skip);
     let mut waits = 0;
-    let mut child = bvh.wide.root;
+    let mut child = tree.wide.root;
     loop {
         match child.kind() {
             Kind::Node(index) => {
                 observer.node();
-                let node = &bvh.wide.nodes[index];
+                let node = &tree.wide.nodes[index];
                 let [x, y, z] = &node.planes;
                 let near = axes[0]
                     .near(simd, x)
@@ -150,7 +176,7 @@ pub(super) fn nearest<S: Simd, O: Observer>(
             }
             Kind::Leaf(index) => {
                 observer.block();
-                let block = &bvh.blocks[index];
+                let block = &tree.blocks[index];
                 if let Some((mut bits, lanes)) = sheared.intersect(simd, block) {
                     observer.met();
                     while bits != 0 {
@@ -181,7 +207,7 @@ pub(super) fn nearest<S: Simd, O: Observer>(
                         triangle,
                         t: nearest,
                         barycentric,
-                        corners: bvh.blocks[block].corners(lane),
+                        corners: tree.blocks[block].corners(lane),
                     },
                     equal,
                     tied,

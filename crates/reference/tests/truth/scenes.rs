@@ -2,7 +2,7 @@
 
 use catoptric_frame::Status;
 use catoptric_reference::{RenderOptions, Surface, Tracer, Truth, reflection_points, reflections};
-use catoptric_scene::{LoadOptions, Scene, builtin};
+use catoptric_scene::{LoadOptions, Scene, list};
 use glam::{DVec2, DVec3};
 
 const SIZE: [u32; 2] = [48, 36];
@@ -13,7 +13,7 @@ fn scenes() -> Vec<Scene> {
         models: None,
         resolution: Some(SIZE),
     };
-    builtin::list(&options)
+    list::builtin(&options)
         .into_iter()
         .filter(|info| info.available && info.vertices <= 20_000)
         .map(|info| Scene::load(&info.name, &options).unwrap())

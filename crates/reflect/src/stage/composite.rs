@@ -9,6 +9,9 @@ use crate::stage::gbuffer::GBuffer;
 use crate::stage::primary::Primary;
 use crate::stage::world::World;
 
+/// Name of the pass.
+pub(super) const PASS: &str = "composite";
+
 /// What a technique draws: the reflections, at the mirror's pixels.
 pub(crate) struct Reflections {
     /// Linear RGB, 1; all 0 where nothing was drawn, so that the background is reflected.
@@ -78,7 +81,7 @@ impl Composite {
 
     pub(crate) fn record(&self, frame: &mut Recorder<'_>, world: &World) {
         let target = view(&self.color);
-        frame.render(super::COMPOSITE, &[&target], Begin::Clear, None, |pass| {
+        frame.render(PASS, &[&target], Begin::Clear, None, |pass| {
             pass.set_pipeline(&self.pipeline);
             pass.set_bind_group(0, &world.view_group, &[]);
             pass.set_bind_group(1, &self.group, &[]);

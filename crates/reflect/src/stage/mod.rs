@@ -31,11 +31,10 @@ use options::{Occluders, SearchOptions, StageOptions, Surface};
 use primary::Primary;
 use world::World;
 
-const PRIMARY: &str = "primary";
 const GBUFFER: &str = "gbuffer";
-const COMPOSITE: &str = "composite";
+
 /// Names of the passes that every technique's frame has, whatever the technique; all others are its own.
-pub const STAGE_PASSES: [&str; 3] = [PRIMARY, GBUFFER, COMPOSITE];
+pub const STAGE_PASSES: [&str; 3] = [primary::PASS, GBUFFER, composite::PASS];
 
 /// The passes before and after a technique's own.
 pub(crate) struct Stage {

@@ -7,6 +7,9 @@ use crate::gpu::{
 use crate::stage::variant::Variant;
 use crate::stage::world::World;
 
+/// Name of the pass.
+pub(super) const PASS: &str = "primary";
+
 /// The pass `primary` and its targets.
 pub(crate) struct Primary {
     /// Linear RGB, 1; all 0 where there is no object.
@@ -60,12 +63,6 @@ impl Primary {
             frame.render("primary layers", &layers, Begin::Clear, cleared, draw);
         }
         let draw = draw(&self.draw_color);
-        frame.render(
-            super::PRIMARY,
-            &[&view(&self.color)],
-            Begin::Clear,
-            cleared,
-            draw,
-        );
+        frame.render(PASS, &[&view(&self.color)], Begin::Clear, cleared, draw);
     }
 }

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
+use super::origin::{Origin, name};
 use super::surface::{PRIMITIVES, Surface, copies, primitive};
-use super::{Origin, name};
 use crate::document::Table;
 use crate::geometry::Purpose;
 use crate::mesh::{Material, Mesh, Paint};

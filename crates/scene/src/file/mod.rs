@@ -4,28 +4,16 @@ mod camera;
 mod mirror;
 mod motion;
 mod object;
+mod origin;
 mod surface;
 
 use std::collections::HashSet;
-use std::path::PathBuf;
 
 use crate::document::{Source, Table, parse};
 use crate::hash::hash;
-use crate::loading::Loading;
-use crate::{LoadOptions, Object, Scene, SceneError};
+use crate::{Object, Scene, SceneError};
 
-/// Where a scene's text comes from and where its models may lie.
-pub(crate) struct Origin<'a> {
-    /// Name of the scene.
-    pub name: &'a str,
-    /// For messages.
-    pub file: &'a str,
-    /// Folder of the scene file; `None` for a built-in scene.
-    pub folder: Option<PathBuf>,
-    pub options: &'a LoadOptions,
-    /// What the scene has made so far.
-    pub loading: Loading,
-}
+pub(crate) use self::origin::Origin;
 
 /// Reads a whole scene.
 pub(crate) fn read(text: &str, origin: Origin<'_>) -> Result<Scene, SceneError> {
@@ -95,17 +83,4 @@ fn unique(table: &Table<'_>, names: &mut HashSet<String>, name: &str) -> Result<
         return Ok(());
     }
     Err(table.error("name", format_args!("`{name}` is used twice")))
-}
-
-/// The `name` of an object or mirror, or else what it is called in messages (`object 2`).
-fn name(table: &Table<'_>) -> Result<String, SceneError> {
-    match table.string("name")? {
-        Some("") => Err(table.error("name", "must not be empty")),
-        Some(name) if name.contains(char::is_control) => {
-            let message = format_args!("must have no control characters: `{name}`");
-            Err(table.error("name", message))
-        }
-        Some(name) => Ok(name.to_owned()),
-        None => Ok(table.owner().to_owned()),
-    }
 }

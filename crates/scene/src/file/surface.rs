@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 
 use glam::{DMat3, DVec2, DVec3, Vec3};
 
-use super::Origin;
+use super::origin::Origin;
 use crate::document::{SMALLEST, Table, short};
 use crate::geometry::{Geometry, Transform, rotation};
 use crate::obj::{self, Materials};

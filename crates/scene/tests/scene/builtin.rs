@@ -1,12 +1,12 @@
 //! The scenes that come with the program.
 
-use catoptric_scene::{LoadOptions, builtin, open};
+use catoptric_scene::{LoadOptions, builtin, list, open};
 use glam::DVec2;
 
 #[test]
 fn all_load_and_say_why() {
     let names = builtin::names();
-    for info in builtin::list(&LoadOptions::default()) {
+    for info in list::builtin(&LoadOptions::default()) {
         assert!(names.contains(&info.name));
         assert!(info.why.len() > 20, "{}", info.name);
         let needs_models = ["teapot-ball", "sponza-ball"].contains(&info.name.as_str());

@@ -472,7 +472,7 @@ fn what_a_scene_may_make_is_limited_and_said_before_it_is_made() {
                 "{message}"
             );
         }
-        assert!(started.elapsed().as_secs() < 20, "{message}");
+        assert!(started.elapsed().as_secs() < 120, "{message}");
     }
     let corners = " 1 2 3".repeat(4000);
     let obj = format!("{triangle}f{corners}\n");

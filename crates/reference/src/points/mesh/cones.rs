@@ -10,7 +10,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::DVec3;
 
-use super::Facet;
+use super::facet::Facet;
 
 /// Angles are compared with so much to spare, radians.
 const SLACK: f64 = 1e-9;

@@ -6,11 +6,11 @@
 
 use glam::UVec2;
 
-use super::Tile;
 use super::geometry::Geometry;
 use super::pyramid::Pyramid;
 use super::settings::Settings;
 use super::tally::Tally;
+use super::tile::Tile;
 use crate::error::ReflectError;
 use crate::gpu::{
     Gpu, Kernel, Recorder, Slot, compute, compute_unset, group, layout, module, set_uniform,

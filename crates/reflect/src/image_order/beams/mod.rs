@@ -24,6 +24,7 @@ mod shade;
 mod tally;
 #[cfg(test)]
 mod tests;
+mod tile;
 #[cfg(test)]
 mod twin;
 
@@ -32,7 +33,7 @@ use catoptric_frame::Work;
 use super::{ImageOrder, Recipe};
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder};
-use crate::options::{options, words};
+use crate::options::options;
 use crate::stage::Stage;
 use crate::stage::variant::Variant;
 use crate::technique::{Info, Named};
@@ -41,15 +42,7 @@ use geometry::Geometry;
 use lists::Lists;
 use pyramid::Pyramid;
 use shade::Shade;
-
-words! {
-    /// Pixels along the side of a leaf.
-    pub(crate) enum Tile {
-        Two = "2",
-        Four = "4",
-        Eight = "8",
-    }
-}
+use tile::Tile;
 
 options! {
     pub(crate) struct Beams {

@@ -15,8 +15,6 @@ use catoptric_scene::shape::{Facing, Sphere};
 use catoptric_scene::{Mesh, MirrorShape};
 use glam::DVec3;
 
-use super::ReflectorCubemap;
-
 /// Position and normal of one texel, relative to the mirror's centre.
 #[derive(Clone, Copy, Debug)]
 struct Texel {
@@ -64,10 +62,9 @@ impl Maps {
     ///
     /// # Panics
     /// On a shape to which there is an [`objection`].
-    pub(crate) fn new(shape: &dyn MirrorShape, options: &ReflectorCubemap) -> Self {
+    pub(crate) fn new(shape: &dyn MirrorShape, size: u32, tessellation: u32) -> Self {
         let facing = shape.facing().expect("the shape has cube maps");
-        let size = options.size;
-        let texels = match (shape.as_mesh(), options.tessellation) {
+        let texels = match (shape.as_mesh(), tessellation) {
             (Some(mesh), _) => of_mesh(mesh, shape.center(), size),
             (None, 0) => of_surface(shape, size),
             (None, segments) => of_mesh(&tessellated(shape, segments), shape.center(), size),
@@ -229,12 +226,6 @@ mod tests {
 
     const SIZE: u32 = 17;
 
-    fn options() -> ReflectorCubemap {
-        let spec = crate::parse(&format!("reflector-cubemap(size={SIZE})")).expect("a technique");
-        let (options, _): (ReflectorCubemap, _) = spec.options().of().expect("its own");
-        options
-    }
-
     fn ellipsoid() -> Ellipsoid {
         Ellipsoid {
             center: DVec3::new(0.3, -2.0, 1.0),
@@ -252,7 +243,7 @@ mod tests {
     #[test]
     fn texels_lie_on_the_surface_in_their_direction() {
         let shape = ellipsoid();
-        let maps = Maps::new(&shape, &options());
+        let maps = Maps::new(&shape, SIZE, 0);
         assert_eq!(maps.positions.len(), 6 * 17 * 17);
         for (index, (position, normal)) in maps.positions.iter().zip(&maps.normals).enumerate() {
             let position = Vec3::from_slice(position).as_dvec3();
@@ -271,7 +262,7 @@ mod tests {
         let shape = ellipsoid();
         let mesh = shape.tessellate(48);
         assert_eq!(objection(&mesh), None);
-        let (exact, drawn) = (Maps::new(&shape, &options()), Maps::new(&mesh, &options()));
+        let (exact, drawn) = (Maps::new(&shape, SIZE, 0), Maps::new(&mesh, SIZE, 0));
         let gap = |a: &[[f32; 4]], b: &[[f32; 4]]| {
             let pairs = a.iter().zip(b);
             let gaps = pairs.map(|(a, b)| Vec3::from_slice(a).distance(Vec3::from_slice(b)));
@@ -294,13 +285,9 @@ mod tests {
             half_angle: 1.0,
         };
         for shape in [&ellipsoid() as &dyn MirrorShape, &bowl] {
-            let exact = Maps::new(shape, &options());
+            let exact = Maps::new(shape, SIZE, 0);
             let gaps = [8, 16, 32, 64].map(|tessellation| {
-                let options = ReflectorCubemap {
-                    tessellation,
-                    ..options()
-                };
-                let drawn = Maps::new(shape, &options);
+                let drawn = Maps::new(shape, SIZE, tessellation);
                 let pairs = exact.positions.iter().zip(&drawn.positions);
                 let gaps = pairs.map(|(a, b)| Vec3::from_slice(a).distance(Vec3::from_slice(b)));
                 f64::from(gaps.sum::<f32>()) / exact.positions.len() as f64
@@ -322,8 +309,8 @@ mod tests {
             axis: DVec3::NEG_Z,
             half_angle: 1.0,
         };
-        let outside = Maps::new(&Sphere { center, radius }, &options());
-        let inside = Maps::new(&bowl, &options());
+        let outside = Maps::new(&Sphere { center, radius }, SIZE, 0);
+        let inside = Maps::new(&bowl, SIZE, 0);
         let places = |maps: &Maps| -> Vec<_> {
             let positions = maps.positions.iter();
             positions

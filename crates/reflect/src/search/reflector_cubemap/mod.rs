@@ -264,7 +264,7 @@ impl InMaps {
     /// Makes the maps of a mirror.
     fn build(&mut self, gpu: &Gpu, mirror: &Mirror) -> OnGpu {
         self.builds += 1;
-        let maps = Maps::new(&*mirror.shape, &self.options);
+        let maps = Maps::new(&*mirror.shape, self.options.size, self.options.tessellation);
         let views = [&maps.positions, &maps.normals].map(|texels| {
             // Cube textures cannot be read texel by texel.
             let texture = texture_with(gpu, "reflector cube map", [maps.size, FACES], texels);

@@ -94,7 +94,7 @@ impl CubemapWalk {
         let own = options.of();
         let (own, mut common): (ReflectorCubemap, _) = own.expect("options of this search");
         let common = SearchOptions::read(&mut common);
-        let maps = Maps::new(shape, &own);
+        let maps = Maps::new(shape, own.size, own.tessellation);
         Self {
             settings: Settings::new(&own, maps.facing, own.sheets.images(maps.facing)[0]),
             several: own.sheets != Sheets::First,

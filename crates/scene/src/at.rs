@@ -29,7 +29,13 @@ impl Scene {
             let pose = step.pose(time);
             match step.subject {
                 Subject::Object(index) => pose.carry(&mut posed.objects[index].mesh),
-                Subject::Mirror(index) => posed.mirrors[index].shape.carry(&pose),
+                Subject::Mirror(index) => {
+                    let mirror = &mut posed.mirrors[index];
+                    mirror.shape.carry(&pose);
+                    for proxy in &mut mirror.proxies {
+                        pose.carry(proxy);
+                    }
+                }
             }
         }
         posed.hash = hash(

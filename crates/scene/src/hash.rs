@@ -58,6 +58,10 @@ pub(crate) fn hash(
                 .iter()
                 .for_each(|center| hasher.vector(*center));
         }
+        for proxy in &mirror.proxies {
+            hasher.tag("proxy");
+            hasher.mesh(proxy);
+        }
     }
     hasher
         .0

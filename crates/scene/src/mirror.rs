@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::mesh::Mesh;
 use crate::shape::Shape;
 
 /// A named mirror.
@@ -16,4 +17,8 @@ pub struct Mirror {
     /// World-space centres of the cube maps that a technique may trace its reflections in, the most
     /// useful first; mostly empty.
     pub cubemaps: Vec<DVec3>,
+    /// Closed meshes, world space, of which the pieces of a mesh mirror are cut: a technique that needs
+    /// a closed surface that its centre sees once fills what the mirror leaves open from them (Estalella
+    /// et al. 2005, §6.2). Mostly empty; no picture of the truth depends on them.
+    pub proxies: Vec<Mesh>,
 }

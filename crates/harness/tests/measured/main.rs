@@ -10,5 +10,6 @@ mod hierarchy;
 mod image_order;
 mod newton;
 mod occluders;
+mod proxies;
 mod tessellation;
 mod textures;

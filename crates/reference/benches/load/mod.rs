@@ -63,6 +63,7 @@ pub fn balls() -> Scene {
             shape,
             tessellation: 64,
             cubemaps: Vec::new(),
+            proxies: Vec::new(),
         }],
         motion: None,
         hash: String::new(),

@@ -16,9 +16,42 @@ pub(super) fn mirror(table: &Table<'_>, origin: &Origin<'_>) -> Result<Mirror, S
     let name = name(table)?;
     let tessellation = table.count("tessellation", 4..=2048)?.unwrap_or(128);
     let cubemaps = table.rows::<3>("cubemaps")?.unwrap_or_default();
+    let is_mesh =
+        table.has("mesh") || (table.string("shape")?).is_some_and(|name| !EXACT.contains(&name));
+    let proxies = match is_mesh {
+        true => table.tables("proxy")?,
+        false => Vec::new(),
+    };
+    let shape = surface_of(table, origin)?;
+    let proxies = proxies.iter().map(|table| proxy(table, origin));
+    Ok(Mirror {
+        name,
+        shape,
+        tessellation,
+        cubemaps: cubemaps.into_iter().map(DVec3::from_array).collect(),
+        proxies: proxies.collect::<Result<_, _>>()?,
+    })
+}
+
+/// A closed mesh of which a piece of the mirror is cut.
+fn proxy(table: &Table<'_>, origin: &Origin<'_>) -> Result<Mesh, SceneError> {
+    match surface_of(table, origin)? {
+        Shape::Mesh(mesh) if mesh.is_closed() => Ok(mesh),
+        Shape::Mesh(_) => Err(table.error_here("is open: it has to be a closed mesh")),
+        exact => {
+            let name = exact.name();
+            let message =
+                format_args!("`{name}` is no mesh: a mirror of that shape needs no proxy");
+            Err(table.error("shape", message))
+        }
+    }
+}
+
+/// The surface that `mesh` or `shape` names.
+fn surface_of(table: &Table<'_>, origin: &Origin<'_>) -> Result<Shape, SceneError> {
     let mesh = table.string("mesh")?;
     let shape = table.string("shape")?;
-    let shape = match (mesh, shape) {
+    Ok(match (mesh, shape) {
         (Some(_), Some(_)) => return Err(table.error("mesh", "and `shape` exclude each other")),
         (Some(file), None) => {
             let surface = Surface::Mesh {
@@ -38,12 +71,6 @@ pub(super) fn mirror(table: &Table<'_>, origin: &Origin<'_>) -> Result<Mirror, S
                 EXACT.join(", ")
             )));
         }
-    };
-    Ok(Mirror {
-        name,
-        shape,
-        tessellation,
-        cubemaps: cubemaps.into_iter().map(DVec3::from_array).collect(),
     })
 }
 

@@ -113,6 +113,7 @@ mod tests {
             shape,
             tessellation: 128,
             cubemaps: Vec::new(),
+            proxies: Vec::new(),
         }]
     }
 

@@ -6,13 +6,14 @@
 //! share these, so that bilinear interpolation is continuous across seams and never reads two
 //! faces. A sphere's or an ellipsoid's texels are exact, unless `tessellation` asks for those of its
 //! triangles; a mesh's are the points and interpolated normals of its triangles, however finely it is drawn. An open mirror has the maps of the closed
-//! shape that it was cut from (§6.2): a bowl those of its whole sphere, seen from inside.
+//! shape that it was cut from (§6.2): a bowl those of its whole sphere, seen from inside; a mesh, for
+//! each of its pieces, those of the closed mesh that the scene file names for it.
 //!
 //! Face `2k` looks along axis `k` (x, y, z), face `2k + 1` against it. Coordinates on a face are
 //! the direction's components along axes `k + 1` and `k + 2` (cyclic) where that along `k` is ±1.
 
 use catoptric_scene::shape::{Facing, Sphere};
-use catoptric_scene::{Mesh, MirrorShape};
+use catoptric_scene::{Mesh, Mirror, MirrorShape};
 use glam::DVec3;
 
 /// Position and normal of one texel, relative to the mirror's centre.
@@ -34,12 +35,24 @@ pub(crate) struct Maps {
     pub normals: Vec<[f32; 4]>,
     /// 1 where normals point away from the centre, −1 where they point towards it.
     pub facing: f32,
+    /// The centre, world space.
+    pub center: DVec3,
 }
 
-/// Why a mirror has no cube maps; `None` if it has.
-pub(crate) fn objection(shape: &dyn MirrorShape) -> Option<&'static str> {
-    shape.facing().err()
+/// Why a mirror has no cube maps, to be read after its name; `None` if it has.
+pub(crate) fn objection(mirror: &Mirror) -> Option<String> {
+    if mirror.proxies.is_empty() {
+        return mirror.shape.facing().err().map(str::to_owned);
+    }
+    Maps::of(mirror, LOOK, 0).err()
 }
+
+/// Texels along an edge of the maps that tell whether proxies and mirror fit.
+const LOOK: u32 = 64;
+
+/// A mirror's point is one of its proxy if their distances from the centre differ by no more than this
+/// share: both may be cut into triangles differently.
+const SAME: f64 = 0.01;
 
 fn corners(mesh: &Mesh, triangle: &[u32; 3], center: DVec3) -> [DVec3; 3] {
     triangle.map(|vertex| mesh.positions[vertex as usize].as_dvec3() - center)
@@ -58,11 +71,81 @@ fn face_axes(face: u32) -> [DVec3; 3] {
 }
 
 impl Maps {
+    /// The maps of a mirror: one pair, or one for each of its proxies.
+    ///
+    /// # Errors
+    /// Why it has none, to be read after its name.
+    pub(crate) fn of(mirror: &Mirror, size: u32, tessellation: u32) -> Result<Vec<Self>, String> {
+        if mirror.proxies.is_empty() {
+            return match mirror.shape.facing() {
+                Ok(_) => Ok(vec![Self::new(&*mirror.shape, size, tessellation)]),
+                Err(reason) => Err(reason.to_owned()),
+            };
+        }
+        let Some(mesh) = mirror.shape.as_mesh() else {
+            return Err("has proxies and is no mesh".to_owned());
+        };
+        let proxies = mirror.proxies.iter().zip(1..);
+        let piece = |(proxy, number): (&Mesh, u32)| {
+            Self::of_piece(mesh, proxy, size)
+                .map_err(|reason| format!("has a proxy (number {number}) that {reason}"))
+        };
+        proxies.map(piece).collect()
+    }
+
+    /// The maps of a closed mesh with those points of the mirror that lie on it.
+    fn of_piece(mirror: &Mesh, proxy: &Mesh, size: u32) -> Result<Self, &'static str> {
+        proxy.facing()?;
+        let center = MirrorShape::center(proxy);
+        let whole = of_mesh(proxy, center, size);
+        let mut own: Vec<Option<Texel>> = vec![None; whole.len()];
+        draw(mirror, center, size, |index, texel| {
+            let off = |texel: &Texel| (texel.position - whole[index].position).length();
+            if off(&texel) > SAME * whole[index].position.length() {
+                return;
+            }
+            if own[index]
+                .as_ref()
+                .is_none_or(|other| off(&texel) < off(other))
+            {
+                own[index] = Some(texel);
+            }
+        });
+        let outwards = |texel: &Texel| texel.normal.dot(texel.position) > 0.0;
+        let mut facing = own.iter().flatten().map(outwards);
+        let first = facing.next().ok_or("no part of the mirror lies on")?;
+        if facing.any(|other| other != first) {
+            return Err(
+                "faces outwards in places and inwards in others: cut the mirror into convex and concave pieces",
+            );
+        }
+        let side = if first { 1.0 } else { -1.0 };
+        let four = |v: DVec3, w| [v.x as f32, v.y as f32, v.z as f32, w];
+        let texels = || own.iter().zip(&whole);
+        Ok(Self {
+            size,
+            positions: texels()
+                .map(|(own, whole)| {
+                    let position = own.as_ref().unwrap_or(whole).position;
+                    four(position, f32::from(own.is_some()))
+                })
+                .collect(),
+            normals: texels()
+                .map(|(own, whole)| {
+                    let normal = own.map_or(side * whole.normal, |texel| texel.normal);
+                    four(normal, 0.0)
+                })
+                .collect(),
+            facing: side as f32,
+            center,
+        })
+    }
+
     /// Both maps, with `size` texels along an edge.
     ///
     /// # Panics
-    /// On a shape to which there is an [`objection`].
-    pub(crate) fn new(shape: &dyn MirrorShape, size: u32, tessellation: u32) -> Self {
+    /// On a shape that its centre does not see once all around.
+    fn new(shape: &dyn MirrorShape, size: u32, tessellation: u32) -> Self {
         let facing = shape.facing().expect("the shape has cube maps");
         let texels = match (shape.as_mesh(), tessellation) {
             (Some(mesh), _) => of_mesh(mesh, shape.center(), size),
@@ -80,6 +163,7 @@ impl Maps {
                 Facing::Outwards => 1.0,
                 Facing::Inwards => -1.0,
             },
+            center: shape.center(),
         }
     }
 }
@@ -140,22 +224,22 @@ const EDGE_SLACK: f64 = 1e-9;
 
 fn of_mesh(mesh: &Mesh, center: DVec3, size: u32) -> Vec<Texel> {
     let mut texels = vec![None; 6 * (size * size) as usize];
-    for (triangle, normals) in mesh.triangles.iter().zip(&mesh.normals) {
-        let corners = corners(mesh, triangle, center);
-        for face in 0..6 {
-            let first = (face * size * size) as usize;
-            let face_texels = &mut texels[first..first + (size * size) as usize];
-            project(
-                face,
-                size,
-                &corners,
-                &normals.map(glam::Vec3::as_dvec3),
-                face_texels,
-            );
-        }
-    }
+    draw(mesh, center, size, |index, texel| {
+        texels[index] = Some(texel);
+    });
     let covered = texels.into_iter().collect::<Option<Vec<_>>>();
     covered.expect("a closed star-shaped mesh covers every direction")
+}
+
+/// Draws a mesh as its centre sees it: hands over each texel that a triangle covers.
+fn draw(mesh: &Mesh, center: DVec3, size: u32, mut texel: impl FnMut(usize, Texel)) {
+    for (triangle, normals) in mesh.triangles.iter().zip(&mesh.normals) {
+        let corners = corners(mesh, triangle, center);
+        let normals = normals.map(glam::Vec3::as_dvec3);
+        for face in 0..6 {
+            project(face, size, &corners, &normals, &mut texel);
+        }
+    }
 }
 
 /// Draws the part of a triangle that a face of the cube sees.
@@ -164,7 +248,7 @@ fn project(
     size: u32,
     corners: &[DVec3; 3],
     normals: &[DVec3; 3],
-    texels: &mut [Option<Texel>],
+    texel: &mut impl FnMut(usize, Texel),
 ) {
     let [axis, right, down] = face_axes(face);
     let depths = corners.map(|corner| corner.dot(axis));
@@ -209,10 +293,10 @@ fn project(
             let normal = (0..3)
                 .map(|i| normals[i] * (weights[i] / sum))
                 .sum::<DVec3>();
-            texels[(row * size + column) as usize] = Some(Texel {
-                position: direction * (volume / sum),
-                normal: normal.normalize_or_zero(),
-            });
+            let index = ((face * size + row) * size + column) as usize;
+            let normal = normal.normalize_or_zero();
+            let position = direction * (volume / sum);
+            texel(index, Texel { position, normal });
         }
     }
 }
@@ -232,6 +316,20 @@ mod tests {
             radii: DVec3::new(1.5, 0.7, 1.0),
             rotation: DMat3::from_rotation_y(0.4),
         }
+    }
+
+    fn mirror(shape: impl Into<catoptric_scene::Shape>) -> Mirror {
+        Mirror {
+            name: "m".to_owned(),
+            shape: shape.into(),
+            tessellation: 64,
+            cubemaps: Vec::new(),
+            proxies: Vec::new(),
+        }
+    }
+
+    fn why_not(shape: impl Into<catoptric_scene::Shape>) -> Option<String> {
+        objection(&mirror(shape))
     }
 
     fn direction(index: usize) -> DVec3 {
@@ -261,7 +359,7 @@ mod tests {
         const CHORD: f32 = 0.0065;
         let shape = ellipsoid();
         let mesh = shape.tessellate(48);
-        assert_eq!(objection(&mesh), None);
+        assert_eq!(why_not(mesh.clone()), None);
         let (exact, drawn) = (Maps::new(&shape, SIZE, 0), Maps::new(&mesh, SIZE, 0));
         let gap = |a: &[[f32; 4]], b: &[[f32; 4]]| {
             let pairs = a.iter().zip(b);
@@ -338,18 +436,92 @@ mod tests {
             up: DVec3::X,
             size: glam::DVec2::ONE,
         };
-        assert!(objection(&plane).is_some_and(|reason| reason.contains("open")));
+        assert!(why_not(plane).is_some_and(|reason| reason.contains("open")));
         let mut open = ellipsoid().tessellate(16);
         open.triangles.pop();
         open.normals.pop();
-        assert!(objection(&open).is_some_and(|reason| reason.contains("closed")));
+        assert!(why_not(open).is_some_and(|reason| reason.contains("closed")));
         let mut inside = ellipsoid().tessellate(16);
         for normal in inside.normals.as_flattened_mut() {
             *normal = -*normal;
         }
-        assert!(objection(&inside).is_some_and(|reason| reason.contains("whole")));
+        assert!(why_not(inside).is_some_and(|reason| reason.contains("whole")));
         let mut dented = ellipsoid().tessellate(16);
         dented.positions[0] = Vec3::new(0.3, -2.6, 1.0);
-        assert!(objection(&dented).is_some_and(|reason| reason.contains("whole")));
+        assert!(why_not(dented).is_some_and(|reason| reason.contains("whole")));
+    }
+
+    /// The triangles of a mesh whose corners all lie at `z` or above, relative to its centre.
+    fn cap(mesh: &Mesh, z: f32) -> Mesh {
+        let center = MirrorShape::center(mesh).z as f32;
+        let above = |triangle: &[u32; 3]| {
+            let corners = triangle.map(|corner| mesh.positions[corner as usize].z - center);
+            corners.iter().all(|corner| *corner >= z)
+        };
+        let kept = |index: &usize| above(&mesh.triangles[*index]);
+        let kept: Vec<usize> = (0..mesh.triangles.len()).filter(kept).collect();
+        Mesh {
+            triangles: kept.iter().map(|index| mesh.triangles[*index]).collect(),
+            normals: kept.iter().map(|index| mesh.normals[*index]).collect(),
+            material: kept.iter().map(|_| 0).collect(),
+            uvs: Vec::new(),
+            ..mesh.clone()
+        }
+    }
+
+    #[test]
+    fn a_piece_has_the_maps_of_its_proxy_and_covers_what_it_is_cut_out() {
+        let whole = ellipsoid().tessellate(48);
+        let mut open = mirror(cap(&whole, 0.4));
+        assert!(objection(&open).is_some());
+        open.proxies = vec![whole.clone()];
+        assert_eq!(objection(&open), None);
+        let [of_piece] = Maps::of(&open, SIZE, 0)
+            .expect("maps")
+            .try_into()
+            .expect("one");
+        let of_whole = Maps::new(&whole, SIZE, 0);
+        assert_eq!(of_piece.facing, 1.0);
+        let mut covered = 0;
+        for (piece, whole) in of_piece.positions.iter().zip(&of_whole.positions) {
+            let [piece_at, whole_at] = [piece, whole].map(|texel| Vec3::from_slice(texel));
+            assert!(piece_at.distance(whole_at) < 1e-6);
+            // Triangles at the rim are in or out as a whole.
+            assert!(whole_at.z < 0.6 || piece[3] == 1.0);
+            assert!(whole_at.z > 0.2 || piece[3] == 0.0);
+            covered += usize::from(piece[3] == 1.0);
+        }
+        assert!(covered > 100 && covered < of_piece.positions.len() / 2);
+    }
+
+    #[test]
+    fn the_inside_of_a_proxy_is_concave_and_a_piece_of_both_is_refused() {
+        let whole = ellipsoid().tessellate(48);
+        let mut dent = cap(&whole, 0.4);
+        for normal in dent.normals.as_flattened_mut() {
+            *normal = -*normal;
+        }
+        let mut mixed = dent.clone();
+        let many = mixed.normals.len() / 2;
+        for normal in mixed.normals[..many].as_flattened_mut() {
+            *normal = -*normal;
+        }
+        let mut dent = mirror(dent);
+        dent.proxies = vec![whole.clone()];
+        let maps = Maps::of(&dent, SIZE, 0).expect("maps");
+        assert_eq!(maps[0].facing, -1.0);
+        for (position, normal) in maps[0].positions.iter().zip(&maps[0].normals) {
+            assert!(Vec3::from_slice(position).dot(Vec3::from_slice(normal)) < 0.0);
+        }
+        let mut mixed = mirror(mixed);
+        mixed.proxies = vec![whole.clone()];
+        assert!(objection(&mixed).is_some_and(|reason| reason.contains("convex and concave")));
+        let mut elsewhere = whole;
+        let center = MirrorShape::center(&elsewhere).as_vec3();
+        for position in &mut elsewhere.positions {
+            *position += 0.5 * (*position - center);
+        }
+        dent.proxies = vec![elsewhere];
+        assert!(objection(&dent).is_some_and(|reason| reason.contains("no part of the mirror")));
     }
 }

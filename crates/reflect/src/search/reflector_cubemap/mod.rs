@@ -10,6 +10,7 @@ pub(crate) mod twin;
 
 use catoptric_scene::{Mirror, Scene, Shape};
 use encase::ShaderType;
+use glam::{DVec3, Vec3};
 
 use super::{Context, Pipelines, Recipe, Search, Sheet};
 use crate::error::ReflectError;
@@ -106,7 +107,7 @@ impl Named for ReflectorCubemap {
 impl Recipe for ReflectorCubemap {
     fn objection(&self, _: &SearchOptions, scene: &Scene) -> Option<String> {
         scene.mirrors.iter().find_map(|mirror| {
-            let reason = maps::objection(&*mirror.shape)?;
+            let reason = maps::objection(mirror)?;
             Some(format!("mirror `{}` {reason}", mirror.name))
         })
     }
@@ -148,6 +149,8 @@ struct Settings {
     image: u32,
     /// Greatest error E of an answer.
     accept: f32,
+    /// Centre of the maps less that of the mirror, world space: not 0 where a mirror has proxies.
+    offset: Vec3,
 }
 
 /// Which image of a vertex a search looks for, as `image` in `reflector_cubemap.wesl`.
@@ -180,7 +183,7 @@ impl Sheets {
 }
 
 impl Settings {
-    /// For a mirror whose maps face this way ([`Maps::facing`]).
+    /// For maps of a mirror of this centre.
     ///
     /// Where normals point inwards, the surface whose normal is the bisector lies in the direction
     /// against it. The field so turned has its sinks at the inverted images: in front of a point
@@ -188,7 +191,8 @@ impl Settings {
     /// nearer one more, so that each step leads away from the upright image, and leads there if the
     /// field is taken with the other sign. Between the foci of a beam it turns less in one direction
     /// and more in the other: to such a point no walk leads.
-    fn new(options: &ReflectorCubemap, facing: f32, image: Image) -> Self {
+    fn new(options: &ReflectorCubemap, maps: &Maps, center: DVec3, image: Image) -> Self {
+        let facing = maps.facing;
         Self {
             size: options.size,
             iterations: options.iterations,
@@ -211,6 +215,7 @@ impl Settings {
                 _ if facing > 0.0 => ANY,
                 _ => ARRIVED,
             },
+            offset: (maps.center - center).as_vec3(),
         }
     }
 }
@@ -228,7 +233,7 @@ struct InMaps {
 /// The maps of one mirror.
 struct OnGpu {
     shape: Shape,
-    /// One a sheet.
+    /// One a sheet: the images in each pair of maps.
     groups: Vec<wgpu::BindGroup>,
 }
 
@@ -256,15 +261,31 @@ impl InMaps {
         let mirrors = stage.world.scene.mirrors.iter();
         // Before they are made on the CPU.
         let texels = u64::from(FACES) * u64::from(options.size).pow(2);
-        gpu.check_memory(mirrors.len() as u64 * 2 * 16 * texels)?;
+        let pairs: usize = mirrors
+            .clone()
+            .map(|mirror| mirror.proxies.len().max(1))
+            .sum();
+        gpu.check_memory(pairs as u64 * 2 * 16 * texels)?;
         made.mirrors = mirrors.map(|mirror| made.build(gpu, mirror)).collect();
         Ok(made)
     }
 
-    /// Makes the maps of a mirror.
+    /// Makes the maps of a mirror: without any, where it fits its proxies no more.
     fn build(&mut self, gpu: &Gpu, mirror: &Mirror) -> OnGpu {
         self.builds += 1;
-        let maps = Maps::new(&*mirror.shape, self.options.size, self.options.tessellation);
+        let ReflectorCubemap {
+            size, tessellation, ..
+        } = self.options;
+        let all = Maps::of(mirror, size, tessellation).unwrap_or_default();
+        let groups = all.iter().flat_map(|maps| self.groups(gpu, mirror, maps));
+        OnGpu {
+            shape: mirror.shape.clone(),
+            groups: groups.collect(),
+        }
+    }
+
+    /// The resources of each image that is looked for in a pair of maps.
+    fn groups(&self, gpu: &Gpu, mirror: &Mirror, maps: &Maps) -> Vec<wgpu::BindGroup> {
         let views = [&maps.positions, &maps.normals].map(|texels| {
             // Cube textures cannot be read texel by texel.
             let texture = texture_with(gpu, "reflector cube map", [maps.size, FACES], texels);
@@ -274,8 +295,9 @@ impl InMaps {
             })
         });
         let images = self.options.sheets.images(maps.facing).iter();
+        let center = mirror.shape.center();
         let groups = images.map(|image| {
-            let settings = uniform(gpu, &Settings::new(&self.options, maps.facing, *image));
+            let settings = uniform(gpu, &Settings::new(&self.options, maps, center, *image));
             let resources = [
                 settings.as_entire_binding(),
                 wgpu::BindingResource::TextureView(&views[0]),
@@ -283,10 +305,7 @@ impl InMaps {
             ];
             group(gpu, &self.layout, &resources)
         });
-        OnGpu {
-            shape: mirror.shape.clone(),
-            groups: groups.collect(),
-        }
+        groups.collect()
     }
 }
 

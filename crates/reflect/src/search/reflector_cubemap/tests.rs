@@ -417,7 +417,8 @@ fn the_settings_lie_as_the_shader_reads_them() {
             facing,
             sense,
             image,
-            accept
+            accept,
+            offset
         },
         "reflector_cubemap",
         &[],

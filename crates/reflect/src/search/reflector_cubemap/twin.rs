@@ -4,7 +4,7 @@
 use catoptric_scene::Scene;
 use glam::{Vec2, Vec3};
 
-use super::maps::{Maps, objection};
+use super::maps::Maps;
 use super::{Image, Projection, ReflectorCubemap, Settings, Sheets};
 use crate::options::Options as _;
 use crate::spec::Options;
@@ -84,23 +84,25 @@ struct Field {
 }
 
 impl CubemapWalk {
-    /// The search that `reflector-cubemap` with these options does on a mirror (an index).
+    /// The search that `reflector-cubemap` with these options does on a mirror (an index), in the maps of
+    /// its first proxy if it has some.
     ///
     /// # Panics
     /// On options of another technique, or a mirror that has no cube maps.
     pub fn new(options: &Options, scene: &Scene, mirror: usize) -> Self {
-        let shape = &*scene.mirrors[mirror].shape;
-        assert_eq!(objection(shape), None);
+        let mirror = &scene.mirrors[mirror];
         let own = options.of();
         let (own, mut common): (ReflectorCubemap, _) = own.expect("options of this search");
         let common = SearchOptions::read(&mut common);
-        let maps = Maps::new(shape, own.size, own.tessellation);
+        let maps = Maps::of(mirror, own.size, own.tessellation).map(|mut all| all.swap_remove(0));
+        let maps = maps.expect("cube maps");
+        let image = own.sheets.images(maps.facing)[0];
         Self {
-            settings: Settings::new(&own, maps.facing, own.sheets.images(maps.facing)[0]),
+            settings: Settings::new(&own, &maps, mirror.shape.center(), image),
             several: own.sheets != Sheets::First,
+            center: maps.center.as_vec3(),
+            eye: (scene.camera.eye - maps.center).as_vec3(),
             maps,
-            center: shape.center().as_vec3(),
-            eye: (scene.camera.eye - shape.center()).as_vec3(),
             extend: common.hidden == Hidden::Extend,
             published: own.projection == Projection::Published,
         }

@@ -3,7 +3,9 @@
 //! Written: one part, scanlines, ZIP, every channel 32-bit float (ids and status codes included),
 //! data window = display window. Channel names: `R G B`, `primary.id`, `primary.position.{X,Y,Z}`,
 //! `primary.normal.{X,Y,Z}`, `reflected.id`, `reflected.position.{X,Y,Z}`, `reflected.distance`,
-//! `reflected.status` (the code of [`crate::Status`]) and, under truth `full`, `bounces`. The header text
+//! `reflected.status` (the code of [`crate::Status`]) and, under truth `full`, `bounces`; where the
+//! motion of the reflections is known, `motion.{X,Y}` and `motion.valid` (1, or 0 where the vector means
+//! nothing), and from the reference `motion.disoccluded` (1 where the point was hidden). The header text
 //! `catoptric.ids` lists the ids, one a line: `1 object floor`.
 //!
 //! Read: the same, and what other renderers write: channels in any order, half or unsigned samples,
@@ -14,10 +16,10 @@ use std::path::Path;
 
 use exr::image::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image as ExrImage, Layer};
 use exr::prelude::{SmallVec, WritableImage};
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 use crate::channels::{AXES, Channels, IDS_ATTRIBUTE, MAX_ID};
-use crate::{Frame, FrameError, Image, Primary, Reflected, names, write_whole};
+use crate::{Frame, FrameError, Image, Motion, Primary, Reflected, names, write_whole};
 
 impl Frame {
     /// Writes all layers as one OpenEXR file; see the module for the channels. The file is there
@@ -90,8 +92,8 @@ impl Frame {
     /// `R G B` must be there. The `primary` channels are there all or none, likewise the
     /// `reflected` ones; then the layer is `None`. Without `reflected.status`, the pixels of
     /// mirrors are taken as resolved: of those that the name list calls mirrors, else of all whose
-    /// `primary.id` shows a `reflected.id` at some pixel. Without a name list, `names` is empty: see
-    /// [`Frame::assign_names`].
+    /// `primary.id` shows a `reflected.id` at some pixel. Without `motion.valid`, a vector is known
+    /// where it is finite. Without a name list, `names` is empty: see [`Frame::assign_names`].
     pub fn from_channels(channels: &Channels) -> Result<Self, FrameError> {
         let primary = if channels.any("primary.") {
             Some(Primary {
@@ -118,10 +120,18 @@ impl Frame {
         } else {
             None
         };
+        let motion = if channels.any("motion.") {
+            let [x, y] = ["motion.X", "motion.Y"]
+                .map(|name| channels.required(name, Channels::numbers));
+            Some(motion(channels, &x?, &y?)?)
+        } else {
+            None
+        };
         Ok(Frame {
             color: channels.required("", Channels::colors)?,
             primary,
             reflected,
+            motion,
             names: channels.names().to_vec(),
         })
     }
@@ -155,6 +165,19 @@ impl Frame {
                 ("reflected.distance", distance.size()),
             ]);
             layers.extend(bounces.iter().map(|bounces| ("bounces", bounces.size())));
+        }
+        if let Some(Motion {
+            vector,
+            valid,
+            disoccluded,
+        }) = &self.motion
+        {
+            layers.extend([
+                ("motion", vector.size()),
+                ("motion.valid", valid.size()),
+            ]);
+            let hidden = disoccluded.iter();
+            layers.extend(hidden.map(|hidden| ("motion.disoccluded", hidden.size())));
         }
         let expected = self.color.size();
         if expected.contains(&0) {
@@ -212,6 +235,47 @@ impl Frame {
                     .map(|bounces| ("bounces".into(), ids(bounces))),
             );
         }
+        if let Some(motion) = &self.motion {
+            let vectors = motion.vector.pixels();
+            let axis = |axis: usize| vectors.iter().map(|vector| vector[axis]).collect();
+            let flags = |image: &Image<bool>| {
+                let pixels = image.pixels().iter();
+                pixels.map(|&holds| f32::from(u8::from(holds))).collect()
+            };
+            channels.push(("motion.X".into(), axis(0)));
+            channels.push(("motion.Y".into(), axis(1)));
+            channels.push(("motion.valid".into(), flags(&motion.valid)));
+            channels.extend(
+                motion
+                    .disoccluded
+                    .iter()
+                    .map(|hidden| ("motion.disoccluded".into(), flags(hidden))),
+            );
+        }
         channels
     }
+}
+
+/// The motion of reflections. Vectors that are not known are 0, so that no number that is none is
+/// taken for one.
+fn motion(channels: &Channels, x: &Image<f32>, y: &Image<f32>) -> Result<Motion, FrameError> {
+    let size = channels.size();
+    let vectors = x.pixels().iter().zip(y.pixels());
+    let vectors: Vec<Vec2> = vectors.map(|(&x, &y)| Vec2::new(x, y)).collect();
+    let flags = |name: &str| -> Result<Option<Vec<bool>>, FrameError> {
+        let flags = channels.numbers(name)?;
+        Ok(flags.map(|flags| flags.pixels().iter().map(|flag| *flag > 0.0).collect()))
+    };
+    let finite = vectors.iter().map(|vector| vector.is_finite());
+    let valid: Vec<bool> = match flags("motion.valid")? {
+        Some(valid) => finite.zip(valid).map(|(finite, valid)| finite && valid).collect(),
+        None => finite.collect(),
+    };
+    let known = vectors.iter().zip(&valid);
+    let vectors = known.map(|(vector, &valid)| if valid { *vector } else { Vec2::ZERO });
+    Ok(Motion {
+        vector: Image::from_vec(size, vectors.collect()),
+        valid: Image::from_vec(size, valid),
+        disoccluded: flags("motion.disoccluded")?.map(|hidden| Image::from_vec(size, hidden)),
+    })
 }

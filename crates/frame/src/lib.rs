@@ -22,7 +22,7 @@ pub use png::{write_png, write_png_rgb8};
 pub use results::{Traced, Triangles, TrueVertex, VertexClass, VertexResult, VertexState, Work};
 pub use unfinished::{NewFolder, abandon_writes, create_folders, is_abandoned, sweep};
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 /// The layers of one picture. All images have the same size.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,6 +33,9 @@ pub struct Frame {
     pub primary: Option<Primary>,
     /// What the reflected ray meets; `None` in pictures that carry only colour.
     pub reflected: Option<Reflected>,
+    /// Where the reflections were a frame before; `None` where that was not asked, or where there is
+    /// no frame before.
+    pub motion: Option<Motion>,
     /// Names of the ids in the id layers, ids ascending.
     pub names: Vec<Name>,
 }
@@ -62,6 +65,19 @@ pub struct Reflected {
     pub distance: Image<f32>,
     /// Mirror bounces until that surface; only under truth `full`.
     pub bounces: Option<Image<u32>>,
+}
+
+/// Where, a frame before, was what each mirror pixel shows now.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Motion {
+    /// From the pixel's centre to where the reflection of the same point was, in pixels, +x right, +y
+    /// down; 0 where it is not known.
+    pub vector: Image<Vec2>,
+    /// Whether the vector is known.
+    pub valid: Image<bool>,
+    /// Whether something else hid the point from the mirror by then, so that its colour was not there. `None`
+    /// where that is not known.
+    pub disoccluded: Option<Image<bool>>,
 }
 
 /// What is known about the reflection at a pixel.

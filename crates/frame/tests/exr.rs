@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use catoptric_frame::{Channels, Frame, FrameError, Image, Name, Primary, Reflected, Status};
+use catoptric_frame::{Motion, Channels, Frame, FrameError, Image, Name, Primary, Reflected, Status};
 use exr::prelude::*;
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 const SIZE: [u32; 2] = [5, 3];
 
@@ -48,6 +48,11 @@ fn full_frame() -> Frame {
             position: vectors(4.0),
             distance: numbered(|i| i as f32 / 7.0),
             bounces: Some(numbered(|i| i)),
+        }),
+        motion: Some(Motion {
+            vector: numbered(|i| Vec2::new(i as f32 / 3.0, -2.0) * (i % 2) as f32),
+            valid: numbered(|i| i % 2 == 1),
+            disoccluded: Some(numbered(|i| i % 4 == 1)),
         }),
         names: names(),
     }
@@ -148,6 +153,7 @@ fn row_zero_is_on_top() {
         color: Image::filled(SIZE, Vec3::ZERO),
         primary: None,
         reflected: None,
+        motion: None,
         names: Vec::new(),
     };
     *frame.color.at_mut(4, 0) = Vec3::ONE;

@@ -40,6 +40,7 @@ fn frame(shift: u32) -> Frame {
             distance: Image::filled(SIZE, 1.0),
             bounces: None,
         }),
+        motion: None,
         names: Vec::new(),
     }
 }

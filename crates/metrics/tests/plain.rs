@@ -440,6 +440,7 @@ fn frame(id: impl Fn((u32, u32)) -> u32, hit: impl Fn((u32, u32)) -> Vec3) -> Fr
             distance: Image::filled(SIZE, 1.0),
             bounces: None,
         }),
+        motion: None,
         names: vec![Name {
             id: 9,
             name: "mirror".into(),

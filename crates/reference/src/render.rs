@@ -117,6 +117,7 @@ impl Tracer {
                 bounces: matches!(options.truth, Truth::Full { .. })
                     .then(|| pixels.map(|pixel| pixel.bounces)),
             }),
+            motion: None,
             names: names
                 .map(|(id, name, mirror)| Name { id, name, mirror })
                 .collect(),
@@ -244,7 +245,7 @@ impl Tracer {
 
 /// Direction of the ray reflected about the shading normal; `None` where it would start below
 /// the surface, or where the shading normal is turned away from the incoming ray.
-fn reflect(dir: DVec3, mirror: &Hit) -> Option<DVec3> {
+pub(crate) fn reflect(dir: DVec3, mirror: &Hit) -> Option<DVec3> {
     let cosine = dir.dot(mirror.normal);
     let reflected = (dir - 2.0 * cosine * mirror.normal).normalize();
     (cosine < 0.0 && reflected.dot(mirror.geometric) > 0.0).then_some(reflected)

@@ -98,6 +98,8 @@ pub enum Surface {
         index: usize,
         /// True on the reflecting side.
         front: bool,
+        /// Of a mesh, an index into its triangles, and the weights of that one's corners.
+        triangle: Option<(usize, DVec3)>,
     },
 }
 
@@ -287,6 +289,7 @@ impl Tracer {
                 surface: Surface::Mirror {
                     index,
                     front: dir.dot(hit.normal) < 0.0,
+                    triangle: None,
                 },
             };
             if hit.t < t_max && nearest.is_none_or(|other| is_met_before(&hit, &other)) {
@@ -354,6 +357,7 @@ impl Tracer {
             surface: Surface::Mirror {
                 index,
                 front: geometric.dot(dir) < 0.0,
+                triangle: Some((triangle, hit.barycentric)),
             },
         }
     }

@@ -35,6 +35,7 @@ impl Scene {
                     for proxy in &mut mirror.proxies {
                         pose.carry(proxy);
                     }
+                    mirror.pose = pose;
                 }
             }
         }

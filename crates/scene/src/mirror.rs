@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::mesh::Mesh;
+use crate::pose::Pose;
 use crate::shape::Shape;
 
 /// A named mirror.
@@ -21,4 +22,7 @@ pub struct Mirror {
     /// a closed surface that its centre sees once fills what the mirror leaves open from them (Estalella
     /// et al. 2005, §6.2). Mostly empty; no picture of the truth depends on them.
     pub proxies: Vec<Mesh>,
+    /// How it has moved since the first frame: what is fixed to the mirror, such as a scratch, has
+    /// moved so too, even where the surface looks the same, as that of a turned ball does.
+    pub pose: Pose,
 }

@@ -68,8 +68,13 @@ pub enum Subject {
 impl Motion {
     /// Time in [0, 1] of a frame.
     pub fn time(&self, frame: u32) -> f64 {
-        let last = self.frames.max(2) - 1;
-        let (frame, last) = (f64::from(frame.min(last)), f64::from(last));
+        self.time_between(f64::from(frame))
+    }
+
+    /// Time in [0, 1] of a moment between frames, such as 1.5 between the second and the third.
+    pub fn time_between(&self, frame: f64) -> f64 {
+        let last = f64::from(self.frames.max(2) - 1);
+        let frame = frame.clamp(0.0, last);
         if self.growth == 1.0 {
             return frame / last;
         }
@@ -93,12 +98,11 @@ impl Motion {
         camera
     }
 
-    /// A mirror's pose at a time.
-    pub(crate) fn mirror_pose(&self, index: usize, time: f64) -> Pose {
-        self.moves
-            .iter()
-            .find(|step| step.subject == Subject::Mirror(index))
-            .map_or(Pose::REST, |step| step.pose(time))
+    /// How something has moved by a time, from where it stands in the scene as written.
+    pub fn pose(&self, subject: Subject, time: f64) -> Pose {
+        let mut moves = self.moves.iter();
+        let step = moves.find(|step| step.subject == subject);
+        step.map_or(Pose::REST, |step| step.pose(time))
     }
 }
 

@@ -6,12 +6,12 @@ use crate::geometry::Transform;
 use crate::mesh::Mesh;
 
 /// A rigid transform that has happened since the first frame: a rotation, then a translation.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose(Transform);
 
 impl Pose {
     /// Nothing has moved.
-    pub(crate) const REST: Self = Self(Transform::IDENTITY);
+    pub const REST: Self = Self(Transform::IDENTITY);
 
     /// A rotation Rz·Ry·Rx by degrees about a point, then a translation.
     pub(crate) fn new(rotate_deg: DVec3, about: DVec3, translate: DVec3) -> Self {
@@ -34,8 +34,13 @@ impl Pose {
     }
 
     /// Where a point was that the motion has brought here.
-    pub(crate) fn undone(&self, point: DVec3) -> DVec3 {
+    pub fn undone(&self, point: DVec3) -> DVec3 {
         self.0.linear.transpose() * (point - self.0.translate)
+    }
+
+    /// How a direction was turned that the motion has turned so.
+    pub fn unturned(&self, direction: DVec3) -> DVec3 {
+        self.0.linear.transpose() * direction
     }
 
     /// Moves a mesh; its vertices keep their order.

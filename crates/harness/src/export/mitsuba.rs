@@ -354,6 +354,7 @@ impl Writer<'_> {
             color: Image::from_vec(size, texels),
             primary: None,
             reflected: None,
+            motion: None,
             names: Vec::new(),
         };
         picture.write_exr(self.folder.join(&file))?;

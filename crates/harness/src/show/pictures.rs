@@ -147,6 +147,7 @@ mod tests {
             color,
             primary: None,
             reflected: None,
+            motion: None,
             names: Vec::new(),
         };
         let painted = Image::filled([2, 1], [255, 0, 0]);

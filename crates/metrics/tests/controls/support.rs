@@ -64,6 +64,7 @@ pub fn scene(shift: i32) -> Frame {
             distance: Image::filled(SIZE, 1.0),
             bounces: None,
         }),
+        motion: None,
         names: vec![Name {
             id: MIRROR,
             name: "mirror".into(),

@@ -64,6 +64,7 @@ pub fn balls() -> Scene {
             tessellation: 64,
             cubemaps: Vec::new(),
             proxies: Vec::new(),
+            pose: catoptric_scene::Pose::REST,
         }],
         motion: None,
         hash: String::new(),

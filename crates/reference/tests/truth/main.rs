@@ -1,6 +1,7 @@
 //! The truth: the tracer and the exact reflection points against closed forms and each other.
 
 mod common;
+mod followed;
 mod meshes;
 mod mixed;
 mod motion;

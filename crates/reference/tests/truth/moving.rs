@@ -49,7 +49,7 @@ fn median_step(scene: &Scene, only: Option<&str>, frame: u32) -> f64 {
 fn steps_grow_from_a_twentieth_of_a_pixel_to_fifteen() {
     let names = builtin::names().into_iter();
     let moving: Vec<_> = names.filter(|name| name.starts_with("moving-")).collect();
-    assert_eq!(moving.len(), 24);
+    assert_eq!(moving.len(), 28);
     let mut wrong = Vec::new();
     for name in moving {
         let scene = Scene::load(&name, &LoadOptions::default()).expect("a built-in scene");

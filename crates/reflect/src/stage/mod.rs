@@ -164,6 +164,7 @@ impl Stage {
                 distance: Image::from_vec(size, distance),
                 bounces: None,
             }),
+            motion: None,
             names: self.world.names(),
         }
     }

@@ -34,7 +34,7 @@ const WHAT: [(&str, &str); 4] = [
     ("all", "Everything"),
 ];
 
-const MIRRORS: [Moving; 6] = [
+const MIRRORS: [Moving; 7] = [
     Moving {
         name: "ball",
         called: "before a mirror ball",
@@ -70,6 +70,12 @@ const MIRRORS: [Moving; 6] = [
         called: "before a flat mirror",
         mirror: "shape = \"plane\"\ncenter = [0.0, 0.0, -0.4]\nnormal = [0.1, 0.05, 1.0]\nsize = [2.8, 2.0]",
         reach: [0.89, 1.79, 0.67, 1.35],
+    },
+    Moving {
+        name: "mesh",
+        called: "before a ball of triangles",
+        mirror: "shape = \"sphere\"\ncenter = [0.0, 0.0, 0.0]\nradius = 0.9\nexact = false\ntessellation = 256",
+        reach: [2.81, 2.74, 1.3, 0.87],
     },
 ];
 

@@ -7,6 +7,7 @@ use super::surface::{PRIMITIVES, Surface, copies, primitive};
 use crate::document::Table;
 use crate::geometry::Purpose;
 use crate::mesh::{Material, Mesh, Paint};
+use crate::pose::Pose;
 use crate::shape::{self, EXACT, Shape};
 use crate::suggest::suggest;
 use crate::{Mirror, SceneError};
@@ -22,7 +23,15 @@ pub(super) fn mirror(table: &Table<'_>, origin: &Origin<'_>) -> Result<Mirror, S
         true => table.tables("proxy")?,
         false => Vec::new(),
     };
+    let exact = table.boolean("exact")?;
     let shape = surface_of(table, origin)?;
+    let shape = match (exact, shape.is_analytic()) {
+        (Some(false), true) => Shape::Mesh(shape.tessellate(tessellation)),
+        (Some(true), false) => {
+            return Err(table.error("exact", "a mesh has no exact surface"));
+        }
+        _ => shape,
+    };
     let proxies = proxies.iter().map(|table| proxy(table, origin));
     Ok(Mirror {
         name,
@@ -30,6 +39,7 @@ pub(super) fn mirror(table: &Table<'_>, origin: &Origin<'_>) -> Result<Mirror, S
         tessellation,
         cubemaps: cubemaps.into_iter().map(DVec3::from_array).collect(),
         proxies: proxies.collect::<Result<_, _>>()?,
+        pose: Pose::REST,
     })
 }
 

@@ -154,7 +154,7 @@ fn check(motion: &Motion, camera: &Camera, mirrors: &[Mirror]) -> Result<(), Str
             ));
         }
         for ((index, mirror), mesh) in closed.iter().zip(&meshes) {
-            let eye = motion.mirror_pose(*index, time).undone(now.eye);
+            let eye = motion.pose(Subject::Mirror(*index), time).undone(now.eye);
             let encloses = match mesh {
                 Some(mesh) => mesh.holds(eye),
                 None => mirror.shape.encloses(eye),

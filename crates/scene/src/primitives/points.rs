@@ -114,6 +114,7 @@ mod tests {
             tessellation: 128,
             cubemaps: Vec::new(),
             proxies: Vec::new(),
+            pose: crate::Pose::REST,
         }]
     }
 

@@ -1,7 +1,7 @@
 //! Frames in, error maps and statistics out: pure functions.
 //!
 //! [`compare()`] judges a technique's picture against the reference's, [`vertex_report`] its search,
-//! [`temporal()`] its steadiness; [`stats`] summarizes samples; [`maps`] and [`mod@flip`] give
+//! [`temporal()`] its steadiness, [`motion_error`] its vectors of motion; [`stats`] summarizes samples; [`maps`] and [`mod@flip`] give
 //! per-pixel errors. Every mean divides by the number of pixels in its mask and accumulates in
 //! `f64`; an empty mask gives `None`.
 
@@ -13,6 +13,7 @@ mod filter;
 pub mod flip;
 pub mod maps;
 mod more;
+mod motion;
 mod pixel;
 pub mod record;
 mod ssim;
@@ -26,6 +27,10 @@ pub use maps::{
     Colormap, CoverageClass, MapKind, color_bar, colorize, colorize_coverage, error_map,
 };
 pub use more::More;
+pub use motion::{
+    MirrorMotion, MotionError, MotionPart, MotionPicture, MotionSamples, TrueMotion, motion_error,
+    motion_map, reprojected,
+};
 pub use pixel::pixel_angle_deg;
 pub use record::{ColorError, Comparison, Coverage, Mismatch, NonFinite, Region, Regions};
 pub use stats::{PairedDifference, Summary, Timing, paired};

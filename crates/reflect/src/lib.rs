@@ -7,7 +7,7 @@
 //! * `gpu/`: device, buffers, pipelines, shader linking, recorder, clock; knows nothing of mirrors;
 //! * `stage/`: what every technique stands on;
 //! * `technique.rs`: what a technique is to the rest;
-//! * `search/`, `refine/`, `image_order/`: a folder for each technique, with its CPU twin;
+//! * `search/`, `refine/`, `image_order/`, `motion/`: a folder for each technique, with its CPU twin;
 //!   `object_order.rs` puts searches and refinements together;
 //! * `registry.rs`: the list of all techniques; `spec.rs`: the grammar of their names.
 
@@ -15,6 +15,7 @@ mod diagnostics;
 mod error;
 mod gpu;
 mod image_order;
+mod motion;
 mod object_order;
 mod options;
 mod prepared;
@@ -69,6 +70,7 @@ pub fn supports(spec: &Spec, scene: &Scene) -> Support {
             (search.objection(scene)).or_else(|| refinement.objection(scene))
         }
         Asked::ImageOrder(technique) => technique.objection(scene),
+        Asked::Motion(estimator) => estimator.objection(scene),
     };
     objection.map_or(Support::Yes, Support::No)
 }
@@ -89,6 +91,7 @@ pub fn prepare<'g>(
             object_order::prepare(gpu, search, refinement.as_ref(), scene, size)
         }
         Asked::ImageOrder(technique) => image_order::prepare(gpu, &technique, scene, size),
+        Asked::Motion(estimator) => motion::prepare(gpu, &estimator, scene, size),
     }?;
     let prepared = Prepared::new(gpu, technique);
     gpu.check().map_err(ReflectError::Build)?;

@@ -4,7 +4,7 @@ use crate::options::{Options, Settled};
 use crate::spec::{self, Spec};
 use crate::stage::options::{SearchOptions, StageOptions};
 use crate::technique::{Family, Info, Named, Properties, TechniqueInfo};
-use crate::{image_order, refine, search};
+use crate::{image_order, motion, refine, search};
 
 /// All techniques, in the order in which they are listed.
 static TECHNIQUES: &[Technique] = &[
@@ -27,6 +27,11 @@ static TECHNIQUES: &[Technique] = &[
     image_order::<image_order::cubemap_trace::CubemapTrace>(),
     image_order::<image_order::ray_trace::RayTrace>(),
     image_order::<image_order::beams::Beams>(),
+    motion::<motion::none::None>(),
+    motion::<motion::surface::Surface>(),
+    motion::<motion::flat::Flat>(),
+    motion::<motion::lens::Lens>(),
+    motion::<motion::newton::Newton>(),
 ];
 
 /// A technique of the list.
@@ -41,6 +46,7 @@ enum Read {
     Search(fn(&mut Settled<'_>) -> search::Asked),
     Refinement(fn(&mut Settled<'_>) -> Box<dyn refine::Recipe>),
     ImageOrder(fn(&mut Settled<'_>) -> image_order::Asked),
+    Motion(fn(&mut Settled<'_>) -> motion::Asked),
     /// It is not built yet.
     Missing,
 }
@@ -78,6 +84,20 @@ const fn image_order<T: Named + image_order::Recipe + 'static>() -> Technique {
     }
 }
 
+const fn motion<T: Named + motion::Recipe + 'static>() -> Technique {
+    Technique {
+        info: TechniqueInfo {
+            options: [T::TABLE, StageOptions::TABLE],
+            properties: |_| Properties {
+                estimates_motion: true,
+                ..Properties::NONE
+            },
+            ..introduced(T::INFO, Family::Motion)
+        },
+        read: Read::Motion(motion::Asked::read::<T>),
+    }
+}
+
 const fn introduced(info: Info, family: Family) -> TechniqueInfo {
     TechniqueInfo {
         name: info.name,
@@ -112,6 +132,7 @@ pub(crate) enum Asked {
     /// A search with a refinement.
     ObjectOrder(search::Asked, Box<dyn refine::Recipe>),
     ImageOrder(image_order::Asked),
+    Motion(motion::Asked),
 }
 
 /// Reads the options of a technique and of its refinement.
@@ -131,6 +152,7 @@ pub(crate) fn asked(spec: &Spec) -> Asked {
             Asked::ObjectOrder(search(values), refinement(&mut options.values()))
         }
         (Read::ImageOrder(technique), None) => Asked::ImageOrder(technique(values)),
+        (Read::Motion(estimator), None) => Asked::Motion(estimator(values)),
         (other, _) => unreachable!("a parsed technique is never {other:?}"),
     }
 }

@@ -366,7 +366,7 @@ mod tests {
                 .collect();
             let (before, name) = match info.family {
                 Family::Refinement => ("linear", info.name),
-                Family::Search | Family::ImageOrder => ("", info.name),
+                Family::Search | Family::ImageOrder | Family::Motion => ("", info.name),
             };
             let written = format!("{before}{name}({})", all.join(","));
             assert_eq!(

@@ -40,6 +40,9 @@ pub enum Family {
     Refinement,
     /// Finds what each mirror pixel's ray meets; stands alone.
     ImageOrder,
+    /// Finds where each mirror pixel's reflection was a frame before; stands alone. Its picture is
+    /// the control's.
+    Motion,
 }
 
 impl fmt::Display for Family {
@@ -48,6 +51,7 @@ impl fmt::Display for Family {
             Self::Search => "search",
             Self::Refinement => "refinement",
             Self::ImageOrder => "image order",
+            Self::Motion => "motion",
         })
     }
 }
@@ -100,6 +104,8 @@ pub struct Properties {
     pub continues_hidden: bool,
     /// Mirror pixels may be left without an answer.
     pub may_be_unresolved: bool,
+    /// It says where reflections were a frame before.
+    pub estimates_motion: bool,
 }
 
 impl Properties {
@@ -112,6 +118,7 @@ impl Properties {
         carries_over: false,
         continues_hidden: false,
         may_be_unresolved: false,
+        estimates_motion: false,
     };
 
     /// Of a search with a refinement.
@@ -124,6 +131,7 @@ impl Properties {
             carries_over: self.carries_over || other.carries_over,
             continues_hidden: self.continues_hidden || other.continues_hidden,
             may_be_unresolved: self.may_be_unresolved || other.may_be_unresolved,
+            estimates_motion: self.estimates_motion || other.estimates_motion,
         }
     }
 }

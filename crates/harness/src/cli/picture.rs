@@ -18,6 +18,19 @@ pub fn open(name: &str, common: &Common) -> anyhow::Result<Scene> {
     Ok(scene)
 }
 
+/// Refuses a frame that a scene's motion does not have. A scene that stands still has any.
+pub fn check_frame(scene: &Scene, frame: u32) -> anyhow::Result<()> {
+    let frames = scene.frames();
+    if scene.motion.is_some() && frame >= frames {
+        return Err(bad_input(format!(
+            "--frame {frame}: the motion of `{}` has {frames} frames, 0 to {}",
+            scene.name,
+            frames - 1
+        )));
+    }
+    Ok(())
+}
+
 /// The file asked for, known to be of a kind that can be written, in a place that can be.
 pub fn target(common: &Common) -> anyhow::Result<PathBuf> {
     let path = common

@@ -4,10 +4,10 @@ use crate::exit::{Outcome, bad_input};
 use crate::options::Common;
 use crate::record::Status;
 use crate::run::load::{check_size, open_gpu, parse, size};
-use crate::run::render::render;
+use crate::run::render::render_frame;
 use crate::terminal::say;
 
-use super::picture::{open, target, write};
+use super::picture::{check_frame, open, target, write};
 
 /// What `render` is asked.
 #[derive(Clone, Debug, clap::Args)]
@@ -17,6 +17,10 @@ pub struct Args {
     /// Such as `linear(residual=cross)` (`list techniques`)
     #[arg(short, long)]
     pub technique: String,
+    /// Frame of the scene's motion, the first being 0. From 1 on a technique of the family motion says in
+    /// an EXR where each reflection was a frame before (`motion.X`, `motion.Y`, `motion.valid`)
+    #[arg(long, value_name = "N")]
+    pub frame: Option<u32>,
 }
 
 /// Renders a scene by a technique into a file.
@@ -25,10 +29,12 @@ pub fn run(args: &Args, common: &Common) -> anyhow::Result<Outcome> {
     let path = target(common)?;
     let spec = parse(&args.technique)?;
     let scene = open(name, common)?;
+    let frame = args.frame.unwrap_or(0);
+    check_frame(&scene, frame)?;
     let gpu = open_gpu(common)?;
     check_size(size(&scene), gpu.info().max_image, "this adapter")?;
-    match render(&gpu, &spec, &scene) {
-        Ok(rendered) => write(&rendered.output.frame, &path, common),
+    match render_frame(&gpu, &spec, &scene, frame) {
+        Ok(picture) => write(&picture, &path, common),
         Err((Status::NotApplicable, reason)) => Err(bad_input(format!(
             "{spec} does not apply to {name}: {reason}"
         ))),

@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 
 use catoptric_frame::{Triangles, Work};
 use catoptric_metrics::{
-    ColorError, Coverage, Mismatch, More, NonFinite, PairedDifference, Regions, Summary, Temporal,
-    Timing, VertexReport,
+    ColorError, Coverage, Mismatch, More, MotionError, NonFinite, PairedDifference, Regions, Summary,
+    Temporal, Timing, VertexReport,
 };
 use schemars::JsonSchema;
 use serde::ser::SerializeMap;
@@ -64,6 +64,8 @@ pub struct Record {
     pub resolved_by: Option<Vec<f64>>,
     /// Steadiness from frame to frame.
     pub temporal: Option<Steadiness>,
+    /// Where reflections were a frame before, of techniques that say so.
+    pub motion: Option<MotionError>,
     /// The same judged by the truth `full`.
     pub against_full: Option<AgainstFull>,
     /// What a frame costs.
@@ -239,6 +241,7 @@ impl Record {
             work: None,
             resolved_by: None,
             temporal: None,
+            motion: None,
             against_full: None,
             time_ms: None,
             mismatch: None,

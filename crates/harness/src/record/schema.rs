@@ -26,6 +26,7 @@ const LATER: [&str; 14] = [
     "pairs",
     "longest_list",
     "bytes",
+    "motion",
 ];
 /// The field whose members are more from version to version.
 const GROWING: &str = "more";

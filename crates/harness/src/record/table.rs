@@ -57,6 +57,13 @@ const SUMMARY: &[Row] = &[
     row("max", "max", "largest {}", Plain, Low, "Largest value of {}."),
 ];
 
+/// Members of [`catoptric_metrics::TrueMotion`].
+#[rustfmt::skip] // A row reads better as a row.
+const TRUE_MOTION: &[Row] = &[
+    row("p50", "p50", "median {}", Plain, Neither, "Median of {}."),
+    row("p99", "p99", "99th percentile of the {}", Plain, Neither, "99th percentile of {}."),
+];
+
 /// Members of [`catoptric_metrics::Jitter`].
 #[rustfmt::skip] // A row reads better as a row.
 const JITTER: &[Row] = &[
@@ -234,6 +241,34 @@ pub const ENTRIES: &[Entry] = &[
         "Mean evaluations a search, from the second frame on."), false),
     One(row("temporal.steps", "moving steps", "steps, from the second frame", Plain, Low,
         "Mean steps a search, from the second frame on."), false),
+    One(row("motion.pairs", "pairs of frames", "pairs of frames", Count, Neither,
+        "Pairs of frames over which the motion of reflections was judged."), false),
+    One(row("motion.pixels", "motion pixels", "mirror pixels whose motion is known", Count, Neither,
+        "Mirror pixels of which it is known where their reflection was a frame before, in all pairs of frames."), false),
+    One(row("motion.missing", "motion missing", "share of those pixels without a vector", Share, Low,
+        "Share of the pixels whose true motion is known for which the technique has no vector."), true),
+    Family(row("motion.error_px", "motion", "error of the motion", Pixels, Low,
+        "the distance between the vector and the true motion of the reflection"), SUMMARY, ALL),
+    Family(row("motion.true_px", "true motion", "true motion", Pixels, Neither,
+        "the length of the true motion of the reflections"), TRUE_MOTION, NONE),
+    One(row("motion.rim.pixels", "rim motion pixels", "mirror pixels at the rim whose motion is known", Count, Neither,
+        "Mirror pixels within 3 px of the mask's border whose true motion is known."), false),
+    One(row("motion.rim.missing", "rim motion missing", "share of those pixels at the rim without a vector", Share, Low,
+        "Share of the pixels at the rim whose true motion is known for which the technique has no vector."), false),
+    Family(row("motion.rim.error_px", "rim motion", "error of the motion at the rim", Pixels, Low,
+        "the distance between the vector and the true motion of the reflection, at the rim"), SUMMARY, NONE),
+    One(row("motion.interior.pixels", "interior motion pixels", "mirror pixels off the rim whose motion is known", Count, Neither,
+        "Mirror pixels farther than 3 px from the mask's border whose true motion is known."), false),
+    One(row("motion.interior.missing", "interior motion missing", "share of those pixels off the rim without a vector", Share, Low,
+        "Share of the pixels off the rim whose true motion is known for which the technique has no vector."), false),
+    Family(row("motion.interior.error_px", "interior motion", "error of the motion off the rim", Pixels, Low,
+        "the distance between the vector and the true motion of the reflection, off the rim"), SUMMARY, NONE),
+    One(row("motion.picture.flip", "reprojected FLIP", "FLIP of the reprojected picture", Plain, Low,
+        "Mean perceived difference (FLIP) between this frame and the colours that the vectors fetch from the frame before, where the reflection was not hidden."), false),
+    One(row("motion.picture.flip_true", "FLIP by the truth", "FLIP of the picture reprojected by the true motion", Plain, Neither,
+        "The same for the true vectors: what blending between pixels costs."), false),
+    One(row("motion.picture.excess", "excess FLIP", "FLIP of the reprojected picture beyond the true motion's", Plain, Low,
+        "FLIP of the picture that the vectors fetch from the frame before, less that of the true vectors."), true),
     One(row("against_full.object_agreement", "full agree", "share of mirror pixels with the right object, mirrors in mirrors", Share, High,
         "Share of mirror pixels that show the right object, judged by the truth in which mirrors see mirrors."), false),
     Family(row("against_full.angular_error_deg", "full angle", "angular error, mirrors in mirrors", Degrees, Low,

@@ -70,6 +70,7 @@ pub fn record(
         shares.map(|count| *count as f64 / pixels).collect()
     });
     row.temporal = rendered.temporal.clone();
+    row.motion = rendered.motion.clone();
     if let Some(samples) = samples {
         row.time_ms = times(rendered.prepare_ms, compared.exact_ms, &samples);
         let build = row.time_ms.as_ref().and_then(|times| times.build.as_ref());

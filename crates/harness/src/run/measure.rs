@@ -12,6 +12,7 @@ use super::render::{Rendered, RowError, render};
 use super::sampling::time;
 use super::setup::{STEPS_A_ROW, Setup};
 use super::truth::{Truth, trace_reference};
+use super::vectors::judge;
 
 /// What one scene gave: its rows in the order of the techniques, and what they were made from.
 pub struct Measured<'a, 'g> {
@@ -76,6 +77,9 @@ pub fn measure(
                 let output = row.as_ref().map(|row| &row.output).map_err(Clone::clone);
                 compared.push(output.and_then(|output| compare(scene, &truth, output)));
             }
+
+            doing("following the motion of reflections");
+            judge(&mut rendered, scene, job.frames)?;
 
             doing("timing");
             let share = techniques.len() as f64 / job.techniques.len() as f64;

@@ -12,6 +12,7 @@ pub mod render;
 pub mod sampling;
 pub mod setup;
 pub mod truth;
+mod vectors;
 
 pub use measure::{Measured, measure};
 pub use setup::{Setup, Wanted, product};

@@ -33,7 +33,7 @@ struct Seen {
     steps: Vec<f64>,
 }
 
-/// Follows techniques over `frames` frames of the scene's motion, all of them through a frame
+/// Follows techniques over `frames` frames of the scene's motion, but those that estimate it, all of them through a frame
 /// before the next, so that each frame's truth is found once. An interrupt ends the sequence early.
 ///
 /// # Errors
@@ -43,6 +43,12 @@ pub fn follow(
     scene: &Scene,
     frames: u32,
 ) -> anyhow::Result<()> {
+    let followed = |row: &Result<Rendered<'_>, RowError>| {
+        matches!(row, Ok(rendered) if !rendered.estimates_motion)
+    };
+    if !rows.iter().any(followed) {
+        return Ok(());
+    }
     let mut seen: Vec<Seen> = rows.iter().map(|_| Seen::default()).collect();
     for frame in 0..frames {
         if interrupted() && frame >= 2 {
@@ -54,6 +60,9 @@ pub fn follow(
         let exact = true_vertices(&posed, &posed.camera.view(size(&posed)));
         for (row, seen) in rows.iter_mut().zip(&mut seen) {
             let Ok(rendered) = row else { continue };
+            if rendered.estimates_motion {
+                continue;
+            }
             if let Err(broken) = seen.look(rendered, &posed, &reference, &exact) {
                 *row = Err(broken);
             }
@@ -61,6 +70,9 @@ pub fn follow(
     }
     for (row, seen) in rows.iter_mut().zip(seen) {
         let Ok(rendered) = row else { continue };
+        if rendered.estimates_motion {
+            continue;
+        }
         match seen.steadiness(rendered, scene) {
             Ok(steadiness) => rendered.temporal = Some(steadiness),
             Err(broken) => *row = Err(broken),

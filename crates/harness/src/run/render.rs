@@ -2,7 +2,8 @@
 
 use std::time::Instant;
 
-use catoptric_frame::Traced;
+use catoptric_frame::{Frame, Traced};
+use catoptric_metrics::MotionError;
 use catoptric_reflect::{
     Answer, FrameTime, Gpu, Output, Prepared, Question, ReflectError, Spec, Support,
 };
@@ -18,6 +19,10 @@ pub struct Rendered<'g> {
     pub(super) prepare_ms: f64,
     /// Over the frames of the scene's motion, once it has been followed there.
     pub(super) temporal: Option<Steadiness>,
+    /// Whether it says where reflections were a frame before.
+    pub(super) estimates_motion: bool,
+    /// How far off that is, once it has been judged.
+    pub(super) motion: Option<MotionError>,
     /// Picture, vertices, triangles and work.
     pub output: Output,
     /// What the rays of that picture took, where they are followed step by step.
@@ -68,9 +73,29 @@ pub fn render<'g>(gpu: &'g Gpu, spec: &Spec, scene: &Scene) -> Result<Rendered<'
         prepared,
         prepare_ms,
         temporal: None,
+        estimates_motion: spec.properties().estimates_motion,
+        motion: None,
         output,
         traced,
     })
+}
+
+/// A technique's picture of a frame of the scene's motion. One that says where reflections were a
+/// frame before is shown that frame first.
+pub fn render_frame(
+    gpu: &Gpu,
+    spec: &Spec,
+    scene: &Scene,
+    frame: u32,
+) -> Result<Frame, RowError> {
+    if frame == 0 || !spec.properties().estimates_motion {
+        return Ok(render(gpu, spec, &scene.at(frame))?.output.frame);
+    }
+    let failed = |error: ReflectError| (Status::Failed, one_line(&error));
+    let mut rendered = render(gpu, spec, &scene.at(frame - 1))?;
+    let prepared = &mut rendered.prepared;
+    prepared.update(&scene.at(frame)).map_err(failed)?;
+    Ok(prepared.render().map_err(failed)?.frame)
 }
 
 /// An error and its causes in one line.

@@ -2,6 +2,7 @@
 //! that follows from the fault.
 
 mod distance;
+mod motion;
 mod support;
 
 use catoptric_frame::{Image, Status};

@@ -137,6 +137,11 @@ impl Follow {
         })
     }
 
+    /// Of the first frame and of the second.
+    pub fn tracers(&self) -> [&Tracer; 2] {
+        [&self.from, &self.to]
+    }
+
     /// The motion of all reflections of the picture: to frame `to`, from frame `from`.
     pub fn layer(&self, progress: Option<&(dyn Fn(u32, u32) + Sync)>) -> Motion {
         let [width, height] = self.views[0].size;

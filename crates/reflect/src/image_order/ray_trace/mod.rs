@@ -82,7 +82,7 @@ impl Recipe for RayTrace {
             Traversal::Hardware => return Err(ReflectError::Adapter("offers no ray queries")),
         };
         let every_frame = self.update == Update::Frame;
-        let rays = Rays::new(gpu, stage, structure, every_frame, None)?;
+        let rays = Rays::new(gpu, stage, structure, every_frame, Extra::Nothing)?;
         Ok(Box::new(rays))
     }
 }
@@ -96,9 +96,26 @@ pub(crate) struct Rays {
     every_frame: bool,
     /// Nodes and triangles tested, a pair of `u32` a pixel.
     counts: wgpu::Buffer,
-    /// Colours of a technique before, −1 in w where it has no answer; all others are left alone.
-    left_open: Option<wgpu::TextureView>,
+    extra: Extra,
     group: wgpu::BindGroup,
+}
+
+/// What the pass reads or writes besides.
+enum Extra {
+    Nothing,
+    /// Colours of a technique before, −1 in w where it has no answer; all others are left alone.
+    LeftOpen(wgpu::TextureView),
+    /// Where each ray meets which triangle, as `ray_trace.wesl` has it.
+    Hits(wgpu::TextureView),
+}
+
+impl Extra {
+    fn view(&self) -> Option<&wgpu::TextureView> {
+        match self {
+            Self::Nothing => None,
+            Self::LeftOpen(view) | Self::Hits(view) => Some(view),
+        }
+    }
 }
 
 /// What the rays are traced through.
@@ -115,7 +132,18 @@ impl Rays {
         left_open: &wgpu::Texture,
     ) -> Result<Self, ReflectError> {
         let structure = Structure::Wide(Wide::new(gpu, &stage.world.scene)?);
-        Self::new(gpu, stage, structure, false, Some(left_open))
+        let extra = Extra::LeftOpen(view(left_open));
+        Self::new(gpu, stage, structure, false, extra)
+    }
+
+    /// Rays that tell also which triangle each meets, and where: into the image `hits`.
+    pub(crate) fn keeping_hits(
+        gpu: &Gpu,
+        stage: &Stage,
+        hits: &wgpu::Texture,
+    ) -> Result<Self, ReflectError> {
+        let structure = Structure::Wide(Wide::new(gpu, &stage.world.scene)?);
+        Self::new(gpu, stage, structure, false, Extra::Hits(view(hits)))
     }
 
     fn new(
@@ -123,9 +151,8 @@ impl Rays {
         stage: &Stage,
         structure: Structure,
         every_frame: bool,
-        left_open: Option<&wgpu::Texture>,
+        extra: Extra,
     ) -> Result<Self, ReflectError> {
-        let left_open = left_open.map(view);
         let mut slots = vec![Slot::Image, Slot::Image, Slot::Write];
         let mut features = Vec::new();
         match &structure {
@@ -135,9 +162,16 @@ impl Rays {
                 features.push("hardware");
             }
         }
-        if left_open.is_some() {
-            slots.push(Slot::Texture);
-            features.push("fallback");
+        match &extra {
+            Extra::Nothing => {}
+            Extra::LeftOpen(_) => {
+                slots.push(Slot::Texture);
+                features.push("fallback");
+            }
+            Extra::Hits(_) => {
+                slots.push(Slot::Image);
+                features.push("keep_hit");
+            }
         }
         let layout = layout(gpu, "ray trace", &slots);
         let pipeline = |features: &[&str]| -> Result<_, ReflectError> {
@@ -158,8 +192,8 @@ impl Rays {
         Ok(Self {
             trace,
             counting: pipeline(&features)?,
-            group: bind(gpu, &layout, &structure, stage, &counts, left_open.as_ref()),
-            left_open,
+            group: bind(gpu, &layout, &structure, stage, &counts, extra.view()),
+            extra,
             layout,
             structure,
             every_frame,
@@ -178,8 +212,8 @@ impl Rays {
         if let Structure::Hardware(structure) = &self.structure {
             gpu.run(|frame| structure.build(frame));
         }
-        let (layout, left_open) = (&self.layout, self.left_open.as_ref());
-        self.group = bind(gpu, layout, &self.structure, stage, &self.counts, left_open);
+        let (layout, extra) = (&self.layout, self.extra.view());
+        self.group = bind(gpu, layout, &self.structure, stage, &self.counts, extra);
         Ok(())
     }
 
@@ -212,7 +246,7 @@ fn bind(
     structure: &Structure,
     stage: &Stage,
     counts: &wgpu::Buffer,
-    left_open: Option<&wgpu::TextureView>,
+    extra: Option<&wgpu::TextureView>,
 ) -> wgpu::BindGroup {
     let color = view(&stage.reflections.color);
     let position = view(&stage.reflections.position);
@@ -228,7 +262,7 @@ fn bind(
         ]),
         Structure::Hardware(structure) => resources.push(structure.tlas.as_binding()),
     }
-    resources.extend(left_open.map(wgpu::BindingResource::TextureView));
+    resources.extend(extra.map(wgpu::BindingResource::TextureView));
     group(gpu, layout, &resources)
 }
 
@@ -301,7 +335,7 @@ mod tests {
         let stage = stage(&gpu, &scene, [96, 72]);
         let wide = Wide::new(&gpu, &stage.world.scene).expect("fits the device");
         let structure = Structure::Wide(wide);
-        let technique = Rays::new(&gpu, &stage, structure, false, None).expect("links");
+        let technique = Rays::new(&gpu, &stage, structure, false, Extra::Nothing).expect("links");
         let before = ids(&gpu, &technique, &stage);
         assert!(before.contains(&1), "the square is reflected");
         assert_eq!(before, ids(&gpu, &technique, &stage));

@@ -1,0 +1,43 @@
+//! `motion-newton`: Newton's method on the mirror of the frame before, started where the mirror's point was then, for
+//! the point that reflects what the pixel shows now. Ours.
+
+use catoptric_scene::Scene;
+
+use super::{Derivatives, Recipe};
+use crate::options::options;
+use crate::technique::{Info, Named};
+
+options! {
+    pub(crate) struct Newton {
+        /// Newton's steps
+        steps: u32 = 3 in 1..=16,
+        /// the surface and its derivatives from the G-buffer's texels, or of the shape itself, where it is known exactly
+        derivatives: Derivatives,
+    }
+}
+
+impl Named for Newton {
+    const INFO: Info = Info {
+        name: "motion-newton",
+        what: "where the reflection point of the frame before truly was, by Newton's method on its G-buffer",
+        paper: "this project",
+    };
+}
+
+impl Recipe for Newton {
+    fn program(&self) -> &'static str {
+        "motion/newton"
+    }
+
+    fn features(&self) -> &'static [&'static str] {
+        self.derivatives.features()
+    }
+
+    fn steps(&self) -> u32 {
+        self.steps
+    }
+
+    fn objection(&self, scene: &Scene) -> Option<String> {
+        self.derivatives.objection(scene)
+    }
+}

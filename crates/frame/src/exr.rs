@@ -5,7 +5,8 @@
 //! `primary.normal.{X,Y,Z}`, `reflected.id`, `reflected.position.{X,Y,Z}`, `reflected.distance`,
 //! `reflected.status` (the code of [`crate::Status`]) and, under truth `full`, `bounces`; where the
 //! motion of the reflections is known, `motion.{X,Y}` and `motion.valid` (1, or 0 where the vector means
-//! nothing), and from the reference `motion.disoccluded` (1 where the point was hidden). The header text
+//! nothing), from the reference `motion.disoccluded` (1 where the point was hidden), and where another
+//! program's convention was asked for `mv.{X,Y}` and `mv.distance`. The header text
 //! `catoptric.ids` lists the ids, one a line: `1 object floor`.
 //!
 //! Read: the same, and what other renderers write: channels in any order, half or unsigned samples,
@@ -121,8 +122,8 @@ impl Frame {
             None
         };
         let motion = if channels.any("motion.") {
-            let [x, y] = ["motion.X", "motion.Y"]
-                .map(|name| channels.required(name, Channels::numbers));
+            let [x, y] =
+                ["motion.X", "motion.Y"].map(|name| channels.required(name, Channels::numbers));
             Some(motion(channels, &x?, &y?)?)
         } else {
             None
@@ -170,14 +171,18 @@ impl Frame {
             vector,
             valid,
             disoccluded,
+            converted,
         }) = &self.motion
         {
-            layers.extend([
-                ("motion", vector.size()),
-                ("motion.valid", valid.size()),
-            ]);
+            layers.extend([("motion", vector.size()), ("motion.valid", valid.size())]);
             let hidden = disoccluded.iter();
             layers.extend(hidden.map(|hidden| ("motion.disoccluded", hidden.size())));
+            if let Some(converted) = converted {
+                layers.extend([
+                    ("mv", converted.vector.size()),
+                    ("mv.distance", converted.virtual_distance.size()),
+                ]);
+            }
         }
         let expected = self.color.size();
         if expected.contains(&0) {
@@ -236,14 +241,22 @@ impl Frame {
             );
         }
         if let Some(motion) = &self.motion {
-            let vectors = motion.vector.pixels();
-            let axis = |axis: usize| vectors.iter().map(|vector| vector[axis]).collect();
+            let axis = |vectors: &Image<Vec2>, axis: usize| {
+                let pixels = vectors.pixels().iter();
+                pixels.map(|vector| vector[axis]).collect()
+            };
             let flags = |image: &Image<bool>| {
                 let pixels = image.pixels().iter();
                 pixels.map(|&holds| f32::from(u8::from(holds))).collect()
             };
-            channels.push(("motion.X".into(), axis(0)));
-            channels.push(("motion.Y".into(), axis(1)));
+            channels.push(("motion.X".into(), axis(&motion.vector, 0)));
+            channels.push(("motion.Y".into(), axis(&motion.vector, 1)));
+            if let Some(converted) = &motion.converted {
+                let distance = converted.virtual_distance.pixels().to_vec();
+                channels.push(("mv.X".into(), axis(&converted.vector, 0)));
+                channels.push(("mv.Y".into(), axis(&converted.vector, 1)));
+                channels.push(("mv.distance".into(), distance));
+            }
             channels.push(("motion.valid".into(), flags(&motion.valid)));
             channels.extend(
                 motion
@@ -268,7 +281,10 @@ fn motion(channels: &Channels, x: &Image<f32>, y: &Image<f32>) -> Result<Motion,
     };
     let finite = vectors.iter().map(|vector| vector.is_finite());
     let valid: Vec<bool> = match flags("motion.valid")? {
-        Some(valid) => finite.zip(valid).map(|(finite, valid)| finite && valid).collect(),
+        Some(valid) => finite
+            .zip(valid)
+            .map(|(finite, valid)| finite && valid)
+            .collect(),
         None => finite.collect(),
     };
     let known = vectors.iter().zip(&valid);
@@ -277,5 +293,6 @@ fn motion(channels: &Channels, x: &Image<f32>, y: &Image<f32>) -> Result<Motion,
         vector: Image::from_vec(size, vectors.collect()),
         valid: Image::from_vec(size, valid),
         disoccluded: flags("motion.disoccluded")?.map(|hidden| Image::from_vec(size, hidden)),
+        converted: None,
     })
 }

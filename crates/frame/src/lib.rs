@@ -78,6 +78,18 @@ pub struct Motion {
     /// Whether something else hid the point from the mirror by then, so that its colour was not there. `None`
     /// where that is not known.
     pub disoccluded: Option<Image<bool>>,
+    /// The same for programs that read it otherwise; written, never read.
+    pub converted: Option<Converted>,
+}
+
+/// Motion as another program reads it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Converted {
+    /// The vectors in that program's unit and signs.
+    pub vector: Image<Vec2>,
+    /// Distance of the virtual image behind the mirror's point along the eye ray, world units; negative
+    /// before it, 0 where there is none.
+    pub virtual_distance: Image<f32>,
 }
 
 /// What is known about the reflection at a pixel.

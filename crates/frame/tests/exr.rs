@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use catoptric_frame::{Motion, Channels, Frame, FrameError, Image, Name, Primary, Reflected, Status};
+use catoptric_frame::{
+    Channels, Frame, FrameError, Image, Motion, Name, Primary, Reflected, Status,
+};
 use exr::prelude::*;
 use glam::{Vec2, Vec3};
 
@@ -53,6 +55,7 @@ fn full_frame() -> Frame {
             vector: numbered(|i| Vec2::new(i as f32 / 3.0, -2.0) * (i % 2) as f32),
             valid: numbered(|i| i % 2 == 1),
             disoccluded: Some(numbered(|i| i % 4 == 1)),
+            converted: None,
         }),
         names: names(),
     }

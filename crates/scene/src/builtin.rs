@@ -194,6 +194,12 @@ const FAMILIES: [Family; 10] = [
     },
 ];
 
+/// Whether a scene of this name is one of many of a sweep that differ in the length of a step, a distance or
+/// a number of segments, and not worth a look of its own.
+pub fn is_single_step(name: &str) -> bool {
+    moving::is_single_step(name)
+}
+
 /// Names of all built-in scenes.
 pub fn names() -> Vec<String> {
     let files = SCENES.iter().map(|(name, _)| (*name).to_owned());

@@ -4,13 +4,15 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use catoptric_frame::{Channels, Frame, Image, Name};
-use catoptric_metrics::{Colormap, Comparison, MapKind, flip::DEFAULT_PIXELS_PER_DEGREE};
+use catoptric_metrics::{
+    Colormap, Comparison, MapKind, MotionError, flip::DEFAULT_PIXELS_PER_DEGREE,
+};
 use serde_json::{Value, json};
 
 use crate::exit::{Outcome, bad_input};
 use crate::options::Common;
 use crate::output::check_writable;
-use crate::show::print;
+use crate::show::{pictures, print};
 
 /// What `diff` is asked.
 #[derive(Clone, Debug, clap::Args)]
@@ -19,11 +21,31 @@ pub struct Args {
     pub reference: PathBuf,
     /// What is judged
     pub test: PathBuf,
+    /// What the map of -o shows
+    #[arg(long, value_enum, default_value_t)]
+    pub map: Map,
+}
+
+/// What a map shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum Map {
+    /// Error of colour, 0 to 1
+    #[default]
+    Color,
+    /// Error of the motion of reflections, 0.001 to 10 pixels on a logarithmic scale
+    Motion,
 }
 
 /// Compares two EXR pictures: all metrics where both have the layers and show a mirror, colour alone
 /// and why otherwise. `-o FILE.png` writes a map of the colour error.
-pub fn run(Args { reference, test }: &Args, common: &Common) -> anyhow::Result<Outcome> {
+pub fn run(
+    Args {
+        reference,
+        test,
+        map,
+    }: &Args,
+    common: &Common,
+) -> anyhow::Result<Outcome> {
     if let Some(path) = &common.output {
         check_map(path, [reference, test])?;
     }
@@ -38,7 +60,7 @@ pub fn run(Args { reference, test }: &Args, common: &Common) -> anyhow::Result<O
         )));
     }
     share_names(&mut a, &mut b, [reference, test], &mut notes);
-    let metrics = match without_layers([(reference, &a), (test, &b)]) {
+    let mut metrics = match without_layers([(reference, &a), (test, &b)]) {
         None => of_layers(&a, &b, &mut notes)?,
         Some(path) => {
             notes.push(format!(
@@ -48,7 +70,11 @@ pub fn run(Args { reference, test }: &Args, common: &Common) -> anyhow::Result<O
             of_color(&a, &b, &mut notes)?
         }
     };
-    if metrics["color"].is_null() {
+    let motion = motion(&a, &b, &mut notes);
+    if let Some(motion) = &motion {
+        metrics["motion"] = serde_json::to_value(motion)?;
+    }
+    if metrics["color"].is_null() && motion.is_none() {
         notes.push("no pixel's colour is a number in both pictures".to_owned());
         if metrics["object_agreement"].is_null() {
             return Err(bad_input(format!(
@@ -60,12 +86,17 @@ pub fn run(Args { reference, test }: &Args, common: &Common) -> anyhow::Result<O
         }
     }
     if let Some(path) = &common.output {
-        let map = color_error(&a, &b);
-        catoptric_frame::write_png_rgb8(
-            &catoptric_metrics::colorize(&map, [0.0, 1.0], Colormap::Magma),
-            path,
-        )
-        .context("the error map")?;
+        let painted = match map {
+            Map::Color => {
+                let map = color_error(&a, &b);
+                catoptric_metrics::colorize(&map, [0.0, 1.0], Colormap::Magma)
+            }
+            Map::Motion => {
+                let map = catoptric_metrics::motion_map(&a, &b);
+                pictures::motion_map(&map.map_err(|error| bad_input(error.to_string()))?)
+            }
+        };
+        catoptric_frame::write_png_rgb8(&painted, path).context("the error map")?;
     }
     let mut result =
         json!({ "reference": reference.display().to_string(), "test": test.display().to_string() });
@@ -142,6 +173,23 @@ fn without_layers<'p>(pictures: [(&'p PathBuf, &Frame); 2]) -> Option<&'p Path> 
     let layered = |frame: &Frame| frame.primary.is_some() && frame.reflected.is_some();
     let mut without = pictures.into_iter().filter(|(_, frame)| !layered(frame));
     without.next().map(|(path, _)| path.as_path())
+}
+
+/// How far the second picture's vectors of motion are off the first's, where both have some.
+fn motion(a: &Frame, b: &Frame, notes: &mut Vec<String>) -> Option<MotionError> {
+    let judged = match (&a.motion, &b.motion) {
+        (None, None) => return None,
+        (Some(_), Some(_)) => catoptric_metrics::motion_error(a, b).map_err(|e| e.to_string()),
+        (Some(_), None) => Err("the second picture has no layers `motion`".to_owned()),
+        (None, Some(_)) => Err("the first picture has no layers `motion`".to_owned()),
+    };
+    match judged {
+        Ok(motion) => Some(motion),
+        Err(reason) => {
+            notes.push(format!("motion is not compared: {reason}"));
+            None
+        }
+    }
 }
 
 /// All metrics. Where no pixel is a mirror's in both pictures, colour is that of the whole pictures.

@@ -1,6 +1,7 @@
 //! `catoptric render`: a technique's picture of a scene, in a file.
 
 use crate::exit::{Outcome, bad_input};
+use crate::export::vectors::{Convention, convert};
 use crate::options::Common;
 use crate::record::Status;
 use crate::run::load::{check_size, open_gpu, parse, size};
@@ -21,6 +22,10 @@ pub struct Args {
     /// an EXR where each reflection was a frame before (`motion.X`, `motion.Y`, `motion.valid`)
     #[arg(long, value_name = "N")]
     pub frame: Option<u32>,
+    /// Write the motion also as other programs read it, with the distance of the virtual image
+    /// (`mv.X`, `mv.Y`, `mv.distance`)
+    #[arg(long, value_name = "CONVENTION", value_enum)]
+    pub vectors: Option<Convention>,
 }
 
 /// Renders a scene by a technique into a file.
@@ -34,7 +39,18 @@ pub fn run(args: &Args, common: &Common) -> anyhow::Result<Outcome> {
     let gpu = open_gpu(common)?;
     check_size(size(&scene), gpu.info().max_image, "this adapter")?;
     match render_frame(&gpu, &spec, &scene, frame) {
-        Ok(picture) => write(&picture, &path, common),
+        Ok(mut picture) => {
+            if let Some(convention) = args.vectors {
+                if picture.motion.is_none() {
+                    return Err(bad_input(format!(
+                        "--vectors: {spec} at frame {frame} has no motion to write; a technique of the \
+                         family motion has, from --frame 1 on"
+                    )));
+                }
+                convert(&mut picture, scene.at(frame).camera.eye, convention);
+            }
+            write(&picture, &path, common)
+        }
         Err((Status::NotApplicable, reason)) => Err(bad_input(format!(
             "{spec} does not apply to {name}: {reason}"
         ))),

@@ -3,3 +3,4 @@
 pub mod mitsuba;
 mod ply;
 mod sides;
+pub mod vectors;

@@ -2,8 +2,9 @@
 
 use catoptric_frame::{Triangles, Work};
 use catoptric_metrics::{
-    ColorError, Coverage, Discard, Jitter, Mismatch, More, NonFinite, OffsetShare,
-    PairedDifference, Region, Regions, SolutionCount, Summary, Temporal, Timing, VertexReport,
+    ColorError, Coverage, Discard, Jitter, MirrorMotion, Mismatch, More, MotionError, MotionPart,
+    MotionPicture, NonFinite, OffsetShare, PairedDifference, Region, Regions, SolutionCount,
+    Summary, Temporal, Timing, TrueMotion, VertexReport,
 };
 use serde_json::{Value, json};
 
@@ -44,6 +45,11 @@ pub fn measured(scene: &str, technique: &str) -> Record {
         rel_mse: 0.1,
         mrse: 0.1,
         left_out: 0,
+    };
+    let motion_part = || MotionPart {
+        pixels: 10,
+        missing: Some(0.0),
+        error_px: Some(SUMMARY),
     };
     let region = || Region {
         mirror_pixels: 10,
@@ -123,6 +129,26 @@ pub fn measured(scene: &str, technique: &str) -> Record {
             bytes: Some(0.0),
         }),
         resolved_by: Some(vec![0.9, 0.1]),
+        motion: Some(MotionError {
+            pairs: 1,
+            pixels: 20,
+            missing: Some(0.0),
+            error_px: Some(SUMMARY),
+            true_px: Some(TrueMotion { p50: 2.0, p99: 4.0 }),
+            rim: motion_part(),
+            interior: motion_part(),
+            mirrors: vec![MirrorMotion {
+                name: "mirror".to_owned(),
+                pixels: 20,
+                missing: Some(0.0),
+                error_px: Some(SUMMARY),
+            }],
+            picture: Some(MotionPicture {
+                flip: 0.1,
+                flip_true: 0.05,
+                excess: 0.05,
+            }),
+        }),
         temporal: Some(Steadiness {
             points: Temporal {
                 frames: 10,
@@ -204,6 +230,7 @@ fn design() -> Value {
         "work": { "evaluations": 0, "steps": 0, "node_tests": 0, "samples": 0, "skips": 0 },
         "temporal": { "frames": 0, "jitter_px": { "mean": 0, "p99": 0, "max": 0 }, "jumps": 0,
                       "object_agreement_min": 0 },
+        "motion": { "pixels": 0, "missing": 0.0, "error_px": summary, "true_px": { "p50": 0, "p99": 0 } },
         "against_full": { "object_agreement": 0, "angular_error_deg": summary },
         "time_ms": { "prepare": 0, "frame": { "median": 0, "mad": 0, "p5": 0, "p95": 0, "samples": 0 },
                      "passes": { "gbuffer": 0, "search": 0 }, "wall": { "median": 0 } },

@@ -43,9 +43,7 @@ pub fn follow(
     scene: &Scene,
     frames: u32,
 ) -> anyhow::Result<()> {
-    let followed = |row: &Result<Rendered<'_>, RowError>| {
-        matches!(row, Ok(rendered) if !rendered.estimates_motion)
-    };
+    let followed = |row: &Result<Rendered<'_>, RowError>| matches!(row, Ok(rendered) if !rendered.estimates_motion);
     if !rows.iter().any(followed) {
         return Ok(());
     }

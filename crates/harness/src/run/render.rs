@@ -2,12 +2,13 @@
 
 use std::time::Instant;
 
-use catoptric_frame::{Frame, Traced};
+use catoptric_frame::{Frame, Image, Traced};
 use catoptric_metrics::MotionError;
 use catoptric_reflect::{
     Answer, FrameTime, Gpu, Output, Prepared, Question, ReflectError, Spec, Support,
 };
 use catoptric_scene::Scene;
+use glam::Vec3;
 
 use crate::record::{Status, Steadiness};
 
@@ -23,10 +24,20 @@ pub struct Rendered<'g> {
     pub(super) estimates_motion: bool,
     /// How far off that is, once it has been judged.
     pub(super) motion: Option<MotionError>,
+    /// What a viewer would see of that motion, in the last pair of frames that was judged.
+    pub fetched: Option<Fetched>,
     /// Picture, vertices, triangles and work.
     pub output: Output,
     /// What the rays of that picture took, where they are followed step by step.
     pub traced: Option<Traced>,
+}
+
+/// What vectors of motion give.
+pub struct Fetched {
+    /// This frame's picture with, in the mirrors, the colours that the vectors fetch from the frame before.
+    pub picture: Image<Vec3>,
+    /// How far each vector is off, in pixels: NaN without a true one, infinite without an answer.
+    pub error: Image<f32>,
 }
 
 impl Rendered<'_> {
@@ -75,6 +86,7 @@ pub fn render<'g>(gpu: &'g Gpu, spec: &Spec, scene: &Scene) -> Result<Rendered<'
         temporal: None,
         estimates_motion: spec.properties().estimates_motion,
         motion: None,
+        fetched: None,
         output,
         traced,
     })
@@ -82,12 +94,7 @@ pub fn render<'g>(gpu: &'g Gpu, spec: &Spec, scene: &Scene) -> Result<Rendered<'
 
 /// A technique's picture of a frame of the scene's motion. One that says where reflections were a
 /// frame before is shown that frame first.
-pub fn render_frame(
-    gpu: &Gpu,
-    spec: &Spec,
-    scene: &Scene,
-    frame: u32,
-) -> Result<Frame, RowError> {
+pub fn render_frame(gpu: &Gpu, spec: &Spec, scene: &Scene, frame: u32) -> Result<Frame, RowError> {
     if frame == 0 || !spec.properties().estimates_motion {
         return Ok(render(gpu, spec, &scene.at(frame))?.output.frame);
     }

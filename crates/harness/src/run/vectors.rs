@@ -1,15 +1,17 @@
 //! Where reflections were a frame before: the answers of those techniques that say so, judged over
 //! pairs of frames.
 
-use catoptric_metrics::MotionSamples;
+use catoptric_frame::{Frame, Image};
+use catoptric_metrics::{MotionSamples, motion_map, reprojected};
 use catoptric_reference::{Follow, RenderOptions, Truth};
 use catoptric_scene::Scene;
+use glam::Vec3;
 
 use crate::record::Status;
 
 use super::interrupt::interrupted;
 use super::load::size;
-use super::render::{Rendered, RowError, one_line};
+use super::render::{Fetched, Rendered, RowError, one_line};
 
 /// Frames that are looked at where nobody says how many: one pair.
 const FRAMES: u32 = 2;
@@ -25,9 +27,7 @@ pub fn judge(
     scene: &Scene,
     frames: Option<u32>,
 ) -> anyhow::Result<()> {
-    let estimates = |row: &Result<Rendered<'_>, RowError>| {
-        matches!(row, Ok(rendered) if rendered.estimates_motion)
-    };
+    let estimates = |row: &Result<Rendered<'_>, RowError>| matches!(row, Ok(rendered) if rendered.estimates_motion);
     if !rows.iter().any(estimates) {
         return Ok(());
     }
@@ -60,7 +60,9 @@ pub fn judge(
                 let output = prepared.render().map_err(|error| failed(&error))?;
                 rendered.output.work = output.work;
                 let added = samples.add(&truth, &output.frame, Some(&colors));
-                added.map_err(|error| failed(&error))
+                added.map_err(|error| failed(&error))?;
+                rendered.fetched = fetched(&truth, &output.frame, &colors);
+                Ok(())
             })();
             if let Err(broken) = judged {
                 *row = Err(broken);
@@ -74,6 +76,15 @@ pub fn judge(
         }
     }
     Ok(())
+}
+
+/// What a viewer would see; `None` where a layer is missing.
+fn fetched(truth: &Frame, frame: &Frame, before: &Image<Vec3>) -> Option<Fetched> {
+    let (known, motion) = (&truth.motion.as_ref()?.valid, frame.motion.as_ref()?);
+    Some(Fetched {
+        picture: reprojected(&truth.color, before, motion, |index| known.pixels()[index]),
+        error: motion_map(truth, frame).ok()?,
+    })
 }
 
 fn failed(error: &dyn std::error::Error) -> RowError {

@@ -42,6 +42,9 @@ pub struct Names {
     pub coverage: String,
     /// The virtual triangles by how often each was split, where a refinement splits any.
     pub levels: Option<String>,
+    /// What vectors of motion fetch from the frame before, and how far they are off, where a technique has
+    /// some.
+    pub motion: Option<[String; 2]>,
 }
 
 /// Names of a row's pictures. One folder a scene and size, so that a sweep over sizes keeps all.
@@ -57,6 +60,10 @@ pub fn names(row: &Record) -> Names {
         technique: format!("{folder}/{technique}.png"),
         angle: format!("{folder}/{technique}.angle.png"),
         coverage: format!("{folder}/{technique}.coverage.png"),
+        motion: row
+            .motion
+            .as_ref()
+            .map(|_| ["fetched", "motion"].map(|kind| format!("{folder}/{technique}.{kind}.png"))),
     }
 }
 
@@ -95,6 +102,23 @@ pub fn coverage_map(reference: &Frame, test: &Frame) -> anyhow::Result<Image<[u8
     let right = CoverageClass::Agree as u8;
     let pale = |code: f32| code.is_nan() || code == f32::from(right);
     Ok(on_pale(colorize_coverage(&map), &map, reference, pale))
+}
+
+/// Errors of the motion of reflections, in pixels, at the ends of the logarithmic scale that all maps
+/// share.
+pub const MOTION_PX: [f32; 2] = [0.001, 10.0];
+
+/// Error of the motion on that scale, grey where there is no true one; what has no answer is painted as the
+/// largest.
+pub fn motion_map(pixels: &Image<f32>) -> Image<[u8; 3]> {
+    let decades = pixels.map(|&px| {
+        if px < MOTION_PX[0] {
+            MOTION_PX[0].log10()
+        } else {
+            px.log10()
+        }
+    });
+    colorize(&decades, MOTION_PX.map(f32::log10), Colormap::Magma)
 }
 
 /// Range of grey of the pale picture: neither the dark nor the light end of a map's colours.

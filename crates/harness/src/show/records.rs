@@ -40,9 +40,21 @@ const SHORT: [&str; 11] = [
     "time_ms.wall.median",
 ];
 
+/// What stands before them where techniques say how reflections moved: the rest is about their picture, the
+/// control's.
+const MOTION: [&str; 5] = [
+    "motion.error_px.p50",
+    "motion.error_px.p95",
+    "motion.missing",
+    "motion.true_px.p50",
+    "motion.picture.excess",
+];
+
 /// The numbers that say most, and the reasons of rows without any.
 fn summary(rows: &[Value]) -> Table {
-    let mut table = numbers(rows, &SHORT);
+    let moves = rows.iter().any(|row| row["motion"].is_object());
+    let motion = if moves { &MOTION[..] } else { &[] };
+    let mut table = numbers(rows, &[motion, &SHORT].concat());
     let remarks: Vec<String> = rows.iter().map(remark).collect();
     if remarks.iter().any(|remark| !remark.is_empty()) {
         table.heading.push("remark".to_owned());

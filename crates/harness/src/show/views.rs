@@ -354,7 +354,10 @@ fn text(number: &Value) -> String {
 }
 
 /// Numbers that stand in one line of a technique's facts.
-const FACTS: [&[&str]; 10] = [
+const FACTS: [&[&str]; 13] = [
+    &["motion.error_px"],
+    &["motion.pixels", "motion.missing", "motion.true_px.p50"],
+    &["motion.picture.flip", "motion.picture.flip_true"],
     &["color.mae", "color.rmse", "color.psnr"],
     &["color.ssim", "color.flip"],
     &["angular_error_deg"],

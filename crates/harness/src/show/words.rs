@@ -10,6 +10,7 @@ use super::number::{count, percent, short};
 /// What a row's numbers mean, a sentence each.
 pub fn sentences(row: &Record) -> Vec<String> {
     [
+        motion(row),
         agreement(row),
         angles(row),
         coverage(row),
@@ -20,6 +21,22 @@ pub fn sentences(row: &Record) -> Vec<String> {
     .into_iter()
     .flatten()
     .collect()
+}
+
+fn motion(row: &Record) -> Option<String> {
+    let motion = row.motion.as_ref()?;
+    let (error, length) = (motion.error_px?, motion.true_px?);
+    let mut text = format!(
+        "Half of its vectors are within {} px of where the reflection was a frame before, 95 % within {} px; \
+         the reflections move by {} px in the median",
+        short(error.p50),
+        short(error.p95),
+        short(length.p50)
+    );
+    if let Some(missing) = motion.missing.filter(|missing| *missing > 0.0) {
+        text += &format!("; {} of the pixels have no vector", percent(missing));
+    }
+    Some(text + ". Its picture is the control's.")
 }
 
 fn agreement(row: &Record) -> Option<String> {

@@ -42,6 +42,7 @@ mod estalella;
 mod figure;
 mod fit;
 pub mod ledger;
+mod motion;
 mod page;
 mod papers;
 mod paths;
@@ -66,13 +67,14 @@ pub use series::{Ask, Point, Series};
 pub use suite::{Asked, Budget, Layout, Picture, Studio, Suite};
 
 /// Every suite, by name.
-pub const SUITES: [&Suite; 7] = [
+pub const SUITES: [&Suite; 8] = [
     &search::SUITE,
     &tessellation::SUITE,
     &estalella::SUITE,
     &cubemap::SUITE,
     &cubemap::FULL,
     &control::SUITE,
+    &motion::SUITE,
     &papers::SUITE,
 ];
 

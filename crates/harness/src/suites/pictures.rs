@@ -32,6 +32,10 @@ pub fn write(
         write_png_rgb8(&angle, draft.file(&names.angle)?)?;
         let coverage = pictures::coverage_map(truth, frame)?;
         write_png_rgb8(&coverage, draft.file(&names.coverage)?)?;
+        if let (Some([picture, error]), Some(fetched)) = (&names.motion, &rendered.fetched) {
+            write_png(&fetched.picture, draft.file(picture)?)?;
+            write_png_rgb8(&pictures::motion_map(&fetched.error), draft.file(error)?)?;
+        }
         if let Some(levels) = &names.levels {
             let geometry = geometry(measured.gpu, measured.scene, &row.technique, "levels")?;
             write_png(&geometry, draft.file(levels)?)?;

@@ -1,6 +1,8 @@
 //! The report: scenes by the techniques that say most about each, on one page, a section a scene.
 
 use catoptric_scene::LoadOptions;
+use catoptric_scene::builtin;
+use catoptric_scene::list::SceneInfo;
 
 use crate::record::technique::refines;
 use crate::show::plot::{Axis, Scale};
@@ -39,7 +41,7 @@ pub const FULL: Suite = Suite {
 };
 
 /// Scenes of the quick suite: the first is the page's first picture.
-const QUICK_SCENES: [&str; 8] = [
+const QUICK_SCENES: [&str; 10] = [
     "sphere-table",
     "sphere-objects-20k",
     "spheres",
@@ -48,6 +50,16 @@ const QUICK_SCENES: [&str; 8] = [
     "planar",
     "sphere-square",
     "sphere-touching",
+    "moving-ball-all-step-4",
+    "moving-bowl-all-step-4",
+];
+
+/// Of scenes that are about the motion of reflections.
+const ESTIMATORS: [&str; 4] = [
+    "motion-surface",
+    "motion-flat",
+    "motion-lens",
+    "motion-newton",
 ];
 
 /// Both published searches, what games use instead, the mirrored eye for flat mirrors, our exact one for
@@ -87,6 +99,9 @@ const FEATURED: [(&str, &[&str]); 5] = [
 /// What is measured on a scene. `everywhere`: the featured techniques too, but for refinements, which
 /// make of large scenes more triangles than time allows.
 fn techniques(scene: &str, everywhere: bool) -> Vec<&'static str> {
+    if builtin::is_single_step(scene) {
+        return ESTIMATORS.to_vec();
+    }
     let featured = FEATURED.iter().filter(|(technique, scenes)| {
         scenes.contains(&scene) || (everywhere && !refines(technique))
     });
@@ -106,7 +121,11 @@ fn scenes(asked: &Asked<'_>, own: impl Fn() -> Vec<String>) -> Vec<String> {
 /// Names of the built-in scenes whose models are here.
 fn available(load: &LoadOptions) -> Vec<String> {
     let infos = catoptric_scene::list::builtin(load).into_iter();
-    let infos = infos.filter(|info| info.available);
+    let worth_it = |info: &SceneInfo| {
+        let quick = QUICK_SCENES.contains(&info.name.as_str());
+        info.available && (quick || !builtin::is_single_step(&info.name))
+    };
+    let infos = infos.filter(worth_it);
     infos.map(|info| info.name).collect()
 }
 

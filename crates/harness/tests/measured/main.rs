@@ -8,6 +8,7 @@ mod behind_the_eye;
 mod coincident;
 mod hierarchy;
 mod image_order;
+mod motion;
 mod newton;
 mod occluders;
 mod proxies;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::support::{catoptric, code, gpu_or_skip, stderr};
 use catoptric_frame::{Frame, Image, write_png_rgb8};
-use catoptric_metrics::{Colormap, MapKind, compare, error_map};
+use catoptric_metrics::{Colormap, MapKind, compare, error_map, motion_error};
 use glam::Vec3;
 
 /// Scene and technique of each golden; together they show every search, every refinement, every
@@ -27,7 +27,15 @@ const GOLDENS: &[(&str, &str)] = &[
     ("kitchen", "beams"),
     ("ellipsoid", "environment-map(size=64)"),
     ("bowl", "cubemap-trace(size=64,accept=continuous,bounces=3)"),
+    ("moving-saddle-all", "motion-none"),
+    ("moving-ellipsoid-all", "motion-surface"),
+    ("moving-plane-all", "motion-flat"),
+    ("moving-bowl-all", "motion-lens"),
+    ("moving-torus-all", "motion-newton"),
 ];
+
+/// Of goldens that move: one whose reflections move by some pixels.
+const FRAME: &str = "9";
 
 const SIZE: &str = "56x42";
 
@@ -45,8 +53,31 @@ const SAME_COLOR: f64 = 0.01;
 /// them; the few edge pixels are all that may differ by so much.
 const SAME_POINT_DEG: f64 = 0.1;
 
+/// Distance between two vectors at 95 % of the pixels that have one in both, and share of those that have
+/// one in the golden alone.
+const SAME_MOTION_PX: f64 = 0.01;
+const SAME_ANSWERS: f64 = 0.02;
+
+/// How the motion differs too much, if it does.
+fn other_motion(golden: &Frame, actual: &Frame) -> Option<String> {
+    if golden.motion.is_none() && actual.motion.is_none() {
+        return None;
+    }
+    let error = match motion_error(golden, actual) {
+        Ok(error) => error,
+        Err(error) => return Some(error.to_string()),
+    };
+    let p95 = error.error_px.map_or(f64::INFINITY, |error| error.p95);
+    let missing = error.missing.unwrap_or(1.0);
+    let same = p95 <= SAME_MOTION_PX && missing <= SAME_ANSWERS;
+    (!same).then(|| format!("vectors differ by {p95} px, {missing} of them are missing"))
+}
+
 /// What differs too much, if anything.
 fn difference(golden: &Frame, actual: &Frame) -> Option<String> {
+    if let Some(other) = other_motion(golden, actual) {
+        return Some(other);
+    }
     let comparison = compare(golden, actual).expect("two pictures of one size");
     let same_object = comparison.object_agreement.unwrap_or(0.0);
     let color = comparison.color.map_or(f64::INFINITY, |color| color.mae);
@@ -86,16 +117,11 @@ fn pictures_are_as_stored() {
         let actual = failed_folder.join(&name);
         let to = if accept { &golden } else { &actual };
         let to = to.to_str().expect("a UTF-8 path");
-        let args = [
-            "render",
-            scene,
-            "-t",
-            technique,
-            "-o",
-            to,
-            "--resolution",
-            SIZE,
-        ];
+        let mut args = vec!["render", scene, "-t", technique, "-o", to];
+        args.extend(["--resolution", SIZE]);
+        if scene.starts_with("moving-") {
+            args.extend(["--frame", FRAME]);
+        }
         let output = catoptric(&args);
         assert_eq!(code(&output), 0, "{name}: {}", stderr(&output));
         let size = std::fs::metadata(&golden).map(|data| data.len());

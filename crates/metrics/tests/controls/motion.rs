@@ -17,6 +17,7 @@ fn with_motion(frame: Frame, vector: Vec2) -> Frame {
             vector: mirror.map(|mirror| if *mirror { vector } else { Vec2::ZERO }),
             valid: mirror,
             disoccluded: Some(Image::filled(SIZE, false)),
+            converted: None,
         }),
         ..frame
     }
@@ -57,7 +58,10 @@ fn a_vector_that_is_missing_is_no_error_but_missing() {
     let error = motion_error(&truth(), &some).unwrap();
     assert_eq!(error.missing, Some(5.0 / 1245.0));
     assert_eq!(error.error_px.unwrap().max, 0.0);
-    assert_eq!(*motion_map(&truth(), &some).unwrap().at(32, 22), f32::INFINITY);
+    assert_eq!(
+        *motion_map(&truth(), &some).unwrap().at(32, 22),
+        f32::INFINITY
+    );
     // What is not a number is no answer.
     some.motion.as_mut().unwrap().vector.at_mut(30, 24).x = f32::NAN;
     let error = motion_error(&truth(), &some).unwrap();

@@ -163,6 +163,7 @@ impl Follow {
             vector: all.map(|pixel| pixel.unwrap_or_default().0),
             valid: all.map(Option::is_some),
             disoccluded: Some(all.map(|pixel| pixel.is_some_and(|(_, hidden)| hidden))),
+            converted: None,
         }
     }
 

@@ -152,7 +152,9 @@ impl Moments {
 
     fn kept_at(&self, part: u32) -> Option<&Moment> {
         let every = self.parts / KEPT;
-        let index = part.is_multiple_of(every).then_some((part / every) as usize)?;
+        let index = part
+            .is_multiple_of(every)
+            .then_some((part / every) as usize)?;
         self.kept.get(index)
     }
 

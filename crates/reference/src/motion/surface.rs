@@ -49,8 +49,14 @@ pub(super) struct Local {
 
 /// A mirror's surface.
 pub(super) enum Surface {
-    Smooth { shape: Shape, extent: f64 },
-    Mesh { rest: Mesh, neighbours: Vec<[Option<u32>; 3]> },
+    Smooth {
+        shape: Shape,
+        extent: f64,
+    },
+    Mesh {
+        rest: Mesh,
+        neighbours: Vec<[Option<u32>; 3]>,
+    },
 }
 
 /// A mesh mirror at a frame itself, whose corners are rounded there.
@@ -178,11 +184,7 @@ struct Walk {
 impl Walk {
     /// The weights where the way ends in the triangle; or the edge over which it leaves (opposite the
     /// corner of this number), and the weights there, with what is left of the way.
-    fn on(
-        &mut self,
-        [a, b, c]: &[DVec3; 3],
-        from: Option<usize>,
-    ) -> Result<DVec3, (usize, DVec3)> {
+    fn on(&mut self, [a, b, c]: &[DVec3; 3], from: Option<usize>) -> Result<DVec3, (usize, DVec3)> {
         let (u, v) = (*b - *a, *c - *a);
         let squares = DMat2::from_cols(
             DVec2::new(u.dot(u), u.dot(v)),

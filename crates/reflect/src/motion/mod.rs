@@ -271,11 +271,17 @@ impl Technique for Estimator {
         let status = frame.reflected.as_ref().map(|layers| &layers.status);
         // Elsewhere the image holds what earlier frames have left there.
         let shown: Vec<bool> = match status {
-            Some(status) => status.pixels().iter().map(|s| *s == Status::Resolved).collect(),
+            Some(status) => status
+                .pixels()
+                .iter()
+                .map(|s| *s == Status::Resolved)
+                .collect(),
             None => vec![false; texels.len()],
         };
         let known = texels.iter().zip(&shown);
-        let known: Vec<bool> = known.map(|(texel, shown)| *shown && texel[2] > 0.0).collect();
+        let known: Vec<bool> = known
+            .map(|(texel, shown)| *shown && texel[2] > 0.0)
+            .collect();
         let vectors = texels.iter().zip(&known).map(|(texel, known)| match known {
             true => Vec2::new(texel[0], texel[1]),
             false => Vec2::ZERO,
@@ -285,6 +291,7 @@ impl Technique for Estimator {
             vector: Image::from_vec(size, vectors.collect()),
             valid: Image::from_vec(size, known.clone()),
             disoccluded: None,
+            converted: None,
         });
         let looks = texels.iter().zip(&shown).filter(|(_, shown)| **shown);
         let looks: f64 = looks.map(|(texel, _)| f64::from(texel[3])).sum();

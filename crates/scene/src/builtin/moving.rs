@@ -1,5 +1,7 @@
 //! `moving-MIRROR-WHAT`: one room before each kind of mirror, in which the camera, an object, the
-//! mirror, or all of them move.
+//! mirror, or all of them move. With an ending, what a sweep needs: `-step-PX` is a single step of about so
+//! many pixels, `-within-D` such a step of 4 pixels in a tube of radius D around the view instead of the room,
+//! `-segments-N` one of 4 pixels before a mesh of so many segments.
 //!
 //! Every sequence has the same pace: its steps grow from less than 0.05 pixels to more than 15 of
 //! true motion of the reflections, so that what depends on the length of a step is seen in one
@@ -10,9 +12,11 @@ use std::fmt::Write;
 const ROOM: &str = include_str!("../../../../scenes/template-moving.toml");
 
 /// Frames of each sequence.
-const FRAMES: u32 = 12;
+const FRAMES: i32 = 12;
 /// How many times as long a step is as the one before: over ten of them, 470 times.
 const GROWTH: f64 = 1.85;
+/// The last step in pixels, about.
+const LONGEST_PX: f64 = 16.0;
 
 /// A mirror of the family.
 struct Moving {
@@ -79,30 +83,145 @@ const MIRRORS: [Moving; 7] = [
     },
 ];
 
-/// The names, mirrors outer.
+/// What the names of single steps end with.
+const ENDINGS: [(&str, &str, &[&str]); 9] = [
+    ("", "all", &["-step-4"]),
+    ("ball", "camera", &["-step-4"]),
+    ("ball", "object", &["-step-4"]),
+    ("ball", "mirror", &["-step-4"]),
+    ("ball", "all", STEPS),
+    ("bowl", "all", STEPS),
+    (
+        "ball",
+        "camera",
+        &["-within-1.2", "-within-2", "-within-4", "-within-8"],
+    ),
+    ("bowl", "camera", &["-within-2", "-within-4", "-within-8"]),
+    (
+        "mesh",
+        "all",
+        &[
+            "-segments-16",
+            "-segments-32",
+            "-segments-64",
+            "-segments-128",
+            "-segments-512",
+        ],
+    ),
+];
+const STEPS: &[&str] = &["-step-0.1", "-step-0.3", "-step-1", "-step-10", "-step-30"];
+
+/// The step of endings that do not say, in pixels.
+const USUAL: f64 = 4.0;
+
+/// Whether a scene is one of the single steps of a sweep.
+pub(super) fn is_single_step(name: &str) -> bool {
+    name.starts_with("moving-") && name.split('-').count() > 3
+}
+
+/// The names, mirrors outer, then those of single steps.
 pub(super) fn names() -> impl Iterator<Item = String> {
-    MIRRORS.iter().flat_map(|moving| {
+    let sequences = MIRRORS.iter().flat_map(|moving| {
         let all = WHAT.iter();
         all.map(|(what, _)| format!("moving-{}-{what}", moving.name))
-    })
+    });
+    let steps = ENDINGS.iter().flat_map(|(name, what, endings)| {
+        let mirrors = MIRRORS.iter();
+        let mirrors = mirrors.filter(move |moving| name.is_empty() || *name == moving.name);
+        mirrors.flat_map(move |moving| {
+            let endings = endings.iter();
+            endings.map(move |ending| format!("moving-{}-{what}{ending}", moving.name))
+        })
+    });
+    sequences.chain(steps)
+}
+
+/// What the ending of a name asks for.
+#[derive(Clone, Copy)]
+enum Ending<'n> {
+    /// The whole sequence.
+    None,
+    /// A step of about so many pixels.
+    Step(f64),
+    Within(&'n str),
+    Segments(&'n str),
+}
+
+impl<'n> Ending<'n> {
+    fn of(text: &'n str) -> Option<Self> {
+        let (kind, number) = text.split_once('-')?;
+        let value: f64 = number.parse().ok()?;
+        match kind {
+            "step" => Some(Self::Step(value)),
+            "within" => Some(Self::Within(number)),
+            "segments" => Some(Self::Segments(number)),
+            _ => None,
+        }
+    }
+
+    /// Pixels of the only step; `None` for a sequence.
+    fn step(self) -> Option<f64> {
+        match self {
+            Self::None => None,
+            Self::Step(pixels) => Some(pixels),
+            Self::Within(_) | Self::Segments(_) => Some(USUAL),
+        }
+    }
 }
 
 /// The scene file of a member.
 pub(super) fn text(name: &str) -> Option<String> {
     let (mirror, what) = name.strip_prefix("moving-")?.split_once('-')?;
+    let (what, ending) = match what.split_once('-') {
+        Some((what, ending)) => (what, Ending::of(ending)?),
+        None => (what, Ending::None),
+    };
     let moving = MIRRORS.iter().find(|moving| moving.name == mirror)?;
     let index = WHAT.iter().position(|(name, _)| *name == what)?;
-    let room = ROOM.replacen("WHAT", WHAT[index].1, 1);
-    let room = room.replacen("MIRROR", moving.called, 1);
-    let keys = moving.mirror;
+    let mut room = ROOM.replacen("WHAT", WHAT[index].1, 1);
+    room = room.replacen("MIRROR", moving.called, 1);
+    if let Some(step) = ending.step() {
+        let (before, _) = room.split_once(": each step")?;
+        let (_, after) = room.split_once("at 640x480, ")?;
+        room = format!("{before}: one step of about {step} pixels at 640x480, {after}");
+    }
+    if let Ending::Within(radius) = ending {
+        let (before, _) = room.split_once("[[object]]")?;
+        room = format!("{before}{}", TUBE.replace("RADIUS", radius));
+    }
+    let mut keys = moving.mirror.to_owned();
+    if let Ending::Segments(segments) = ending {
+        keys = keys.replace("tessellation = 256", &format!("tessellation = {segments}"));
+    }
     let mirror = format!("\n[[mirror]]\nname = \"mirror\"\n{keys}\n");
-    Some(room + &mirror + &motion(what, moving.reach[index]))
+    Some(room + &mirror + &motion(what, moving.reach[index], ending.step()))
 }
 
-/// `[motion]` of one thing or of all, so many times as far as things go with 1.
-fn motion(what: &str, reach: f64) -> String {
+/// What stands around the mirror in place of the room, open to the eye.
+const TUBE: &str = r#"[[object]]
+name = "tube"
+shape = "lathe"
+profile = [[RADIUS, -3.0], [RADIUS, 3.5]]
+n = 24
+segments = 64
+checker = { a = [0.84, 0.80, 0.72], b = [0.18, 0.24, 0.32], cells = 16 }
+transform = { rotate_deg = [90.0, 0.0, 0.0] }
+"#;
+
+/// `[motion]` of one thing or of all, so many times as far as things go with 1; or a single step of so
+/// many pixels.
+fn motion(what: &str, reach: f64, step: Option<f64>) -> String {
     let moves = |part: &str| what == part || what == "all";
-    let mut text = format!("\n[motion]\nframes = {FRAMES}\ngrowth = {GROWTH:?}\n");
+    // The last step of a sequence is the longest.
+    let longest = (1.0 - 1.0 / GROWTH) / (1.0 - GROWTH.powi(1 - FRAMES));
+    let reach = match step {
+        Some(pixels) => reach * longest * pixels / LONGEST_PX,
+        None => reach,
+    };
+    let mut text = match step {
+        Some(_) => "\n[motion]\nframes = 2\n".to_owned(),
+        None => format!("\n[motion]\nframes = {FRAMES}\ngrowth = {GROWTH:?}\n"),
+    };
     if moves("camera") {
         let _ = writeln!(text, "camera = {{ orbit_deg = {:?} }}", -10.0 * reach);
     }

@@ -20,6 +20,7 @@
 
 mod moment;
 mod surface;
+mod target;
 
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -30,6 +31,7 @@ use rayon::prelude::*;
 
 use self::moment::{Moments, Situation};
 use self::surface::{Local, Place, Surface};
+pub use self::target::Target;
 use crate::error::ReferenceError;
 use crate::render::{Truth, reflect};
 use crate::tracer::{self, Tracer};
@@ -58,22 +60,6 @@ const PARTS: u32 = 1 << 14;
 
 /// A share of lengths below which two surfaces are at one place.
 const SAME: f64 = 1e-6;
-
-/// What is reflected.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Target {
-    /// A point of an object, which moves with it.
-    Point {
-        /// Index into the scene's objects.
-        object: usize,
-        /// Index into the object's triangles.
-        triangle: usize,
-        /// Weights of the triangle's corners, summing to 1.
-        weights: DVec3,
-    },
-    /// The background in a unit direction.
-    Direction(DVec3),
-}
 
 /// A reflection: a place on a mirror and what is seen there.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 use catoptric_scene::{Mesh, Pose, Scene, Subject, View};
 use glam::{DVec2, DVec3};
 
-use super::Target;
+use super::target::Target;
 
 /// Moments that are kept; others are made when they are asked for.
 const KEPT: u32 = 64;

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use glam::Vec3;
 use image::ImageEncoder;
-use image::codecs::png::PngEncoder;
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 
 use crate::{FrameError, Image, write_whole};
 
@@ -36,7 +36,8 @@ pub fn write_png_rgb8(image: &Image<[u8; 3]>, path: impl AsRef<Path>) -> Result<
     let path = path.as_ref();
     let [width, height] = image.size();
     let mut png = Vec::new();
-    PngEncoder::new(&mut png)
+    // The fast kind makes files half as large again.
+    PngEncoder::new_with_quality(&mut png, CompressionType::Default, FilterType::Adaptive)
         .write_image(
             image.pixels().as_flattened(),
             width,

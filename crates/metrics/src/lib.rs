@@ -14,6 +14,7 @@ pub mod flip;
 pub mod maps;
 mod more;
 mod motion;
+mod offset;
 mod pixel;
 pub mod record;
 mod ssim;
@@ -31,6 +32,7 @@ pub use motion::{
     MirrorMotion, MotionError, MotionPart, MotionPicture, MotionSamples, TrueMotion, motion_error,
     motion_map, reprojected,
 };
+pub use offset::offset_px;
 pub use pixel::pixel_angle_deg;
 pub use record::{ColorError, Comparison, Coverage, Mismatch, NonFinite, Region, Regions};
 pub use stats::{PairedDifference, Summary, Timing, paired};

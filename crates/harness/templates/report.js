@@ -40,11 +40,6 @@ for (const box of document.querySelectorAll(".compare")) {
   };
   image.addEventListener("pointermove", drag);
   image.addEventListener("pointerdown", drag);
-  for (const figure of box.querySelectorAll("figure")) {
-    figure.addEventListener("click", () => {
-      if (box.dataset.mode === "flip") box.classList.toggle("flipped");
-    });
-  }
   new ResizeObserver(measure).observe(image);
   controls.append(...buttons, slider);
   box.append(line, controls);

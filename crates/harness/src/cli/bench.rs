@@ -2,6 +2,7 @@
 
 use crate::exit::Outcome;
 use crate::options::{Common, seconds};
+use crate::show::layers::Extent;
 use crate::suites::{self, runner};
 
 /// What `bench` is asked.
@@ -18,6 +19,10 @@ pub struct Args {
     /// Seconds of timing in all, shared by everything that is measured; default: by the suite
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub time_budget: Option<f64>,
+    /// Write positions, distances, normals and offsets beside the pictures too, for the inspector of the
+    /// page: objects, colours and errors are always written
+    #[arg(long)]
+    pub layers: bool,
 }
 
 /// Runs a suite and writes its page.
@@ -26,5 +31,14 @@ pub fn run(args: &Args, common: &Common) -> anyhow::Result<Outcome> {
         false => suites::find(&args.suite)?,
         true => suites::whole(suites::find(&args.suite)?)?,
     };
-    runner::run(suite, args.scene.as_deref(), args.time_budget, common)
+    let choice = runner::Choice {
+        scene: args.scene.as_deref(),
+        seconds: args.time_budget,
+        extent: if args.layers {
+            Extent::All
+        } else {
+            Extent::Usual
+        },
+    };
+    runner::run(suite, choice, common)
 }

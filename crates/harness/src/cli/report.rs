@@ -4,6 +4,7 @@ use clap::ValueEnum;
 
 use crate::exit::Outcome;
 use crate::options::{Common, seconds};
+use crate::show::layers::Extent;
 use crate::suites::{report, runner};
 
 /// What `report` is asked.
@@ -15,6 +16,13 @@ pub struct Args {
     /// Seconds of timing for each scene, shared by the techniques; default: by the suite
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub time_budget: Option<f64>,
+    /// A scene of yours (or a built-in one) in place of the suite's own
+    #[arg(long, value_name = "SCENE")]
+    pub scene: Option<String>,
+    /// Write positions, distances, normals and offsets beside the pictures too, for the inspector of the
+    /// page: objects, colours and errors are always written
+    #[arg(long)]
+    pub layers: bool,
 }
 
 /// Suites of the `report` command.
@@ -33,5 +41,14 @@ pub fn run(args: &Args, common: &Common) -> anyhow::Result<Outcome> {
         SuiteArg::Quick => &report::QUICK,
         SuiteArg::Full => &report::FULL,
     };
-    runner::run(suite, None, args.time_budget, common)
+    let choice = runner::Choice {
+        scene: args.scene.as_deref(),
+        seconds: args.time_budget,
+        extent: if args.layers {
+            Extent::All
+        } else {
+            Extent::Usual
+        },
+    };
+    runner::run(suite, choice, common)
 }

@@ -5,6 +5,8 @@ pub mod changes;
 mod diagrams;
 pub mod facts;
 pub mod html;
+pub mod layers;
+pub mod look;
 pub mod number;
 pub mod page;
 pub mod pictures;

@@ -7,7 +7,7 @@ use crate::record::Record;
 
 use super::facts::{self, Fact};
 use super::views::{self, Scene, SummaryRow};
-use super::{diagrams, pictures, words};
+use super::{diagrams, look, pictures, words};
 
 /// Everything that the template shows.
 #[derive(Template)]
@@ -29,6 +29,7 @@ struct Page<'r> {
     environment: Vec<Fact>,
     command: String,
     wall_clock: bool,
+    look: String,
 }
 
 /// The first picture of the page.
@@ -72,6 +73,7 @@ pub fn render(rows: &[Record], wanted: usize) -> anyhow::Result<String> {
                 .as_ref()
                 .is_some_and(|times| times.frame.is_none())
         }),
+        look: look::json(),
     };
     page.render().context("filling the report's template")
 }

@@ -45,6 +45,10 @@ pub struct Names {
     /// What vectors of motion fetch from the frame before, and how far they are off, where a technique has
     /// some.
     pub motion: Option<[String; 2]>,
+    /// The truth's values, as a script.
+    pub truth_layers: String,
+    /// The technique's values, as a script.
+    pub layers: String,
 }
 
 /// Names of a row's pictures. One folder a scene and size, so that a sweep over sizes keeps all.
@@ -64,6 +68,8 @@ pub fn names(row: &Record) -> Names {
             .motion
             .as_ref()
             .map(|_| ["fetched", "motion"].map(|kind| format!("{folder}/{technique}.{kind}.png"))),
+        truth_layers: format!("{folder}/reference.layers.js"),
+        layers: format!("{folder}/{technique}.layers.js"),
     }
 }
 
@@ -122,7 +128,7 @@ pub fn motion_map(pixels: &Image<f32>) -> Image<[u8; 3]> {
 }
 
 /// Range of grey of the pale picture: neither the dark nor the light end of a map's colours.
-const PALE: [f32; 2] = [150.0, 225.0];
+pub const PALE: [f32; 2] = [150.0, 225.0];
 
 /// Replaces a map, where `pale` says so of its value, by the reference without colour or contrast,
 /// so that one sees where on the picture the errors are.

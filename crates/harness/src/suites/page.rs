@@ -7,7 +7,7 @@ use crate::record::{Record, Status};
 use crate::show::number::{or_dash, short, significant};
 use crate::show::plot::{Axis, Curve, Mark, Plot, Scale, TALL};
 use crate::show::table::Table;
-use crate::show::{facts, pictures, words};
+use crate::show::{facts, look, pictures, words};
 use anyhow::Context;
 use askama::Template;
 use catoptric_frame::write_whole;
@@ -35,6 +35,7 @@ struct Page<'p> {
     command: String,
     measured: usize,
     ledger: Option<Ledger>,
+    look: String,
 }
 
 /// The table of all claims.
@@ -130,6 +131,7 @@ pub fn render(content: &Content<'_>, files: Option<&Draft>) -> anyhow::Result<St
         command: facts::command(rows),
         measured: rows.len(),
         ledger: ledger(content, &values, files)?,
+        look: look::json(),
     };
     page.render().context("filling the page's template")
 }

@@ -14,6 +14,7 @@ use crate::record::{self, Record, Status};
 use crate::run::interrupt::interrupted;
 use crate::run::load::load_options;
 use crate::run::{Setup, measure};
+use crate::show::layers::Extent;
 use crate::show::{self, print, records};
 use crate::terminal::say;
 
@@ -22,13 +23,24 @@ use super::page::Content;
 use super::suite::{Asked, Layout, Picture, Studio, Suite};
 use super::{page, pictures, plan};
 
-/// Measures a suite and writes its page. `seconds` of timing go before the suite's own.
-pub fn run(
-    suite: &Suite,
-    scene: Option<&str>,
-    seconds: Option<f64>,
-    common: &Common,
-) -> anyhow::Result<Outcome> {
+/// What the user says of a run.
+#[derive(Clone, Copy, Debug)]
+pub struct Choice<'c> {
+    /// A scene in place of the suite's own.
+    pub scene: Option<&'c str>,
+    /// Seconds of timing; they go before the suite's own.
+    pub seconds: Option<f64>,
+    /// Which values are written beside the pictures.
+    pub extent: Extent,
+}
+
+/// Measures a suite and writes its page.
+pub fn run(suite: &Suite, choice: Choice<'_>, common: &Common) -> anyhow::Result<Outcome> {
+    let Choice {
+        scene,
+        seconds,
+        extent,
+    } = choice;
     let common = &Common {
         resolution: common.resolution.or(suite.resolution),
         ..common.clone()
@@ -66,7 +78,7 @@ pub fn run(
 
     let rows = measure(&setup, |measured, rows| {
         if let Some(measured) = measured {
-            pictures::write(&measured, &draft, |row| plan::shown(figures, row))?;
+            pictures::write(&measured, &draft, extent, |row| plan::shown(figures, row))?;
         }
         let page = match suite.layout {
             Layout::Scenes => show::page::render(rows, wanted)?,

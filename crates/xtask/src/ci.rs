@@ -37,9 +37,32 @@ const TOOLS: [Tool; 4] = [
     },
 ];
 
+/// How Chromium may be called: with it, the pages are tested as they are used.
+const BROWSERS: [&str; 4] = [
+    "chromium",
+    "chromium-browser",
+    "google-chrome",
+    "google-chrome-stable",
+];
+
 /// The checks, quick ones first, and a line about each that is skipped.
 pub fn checks() -> (Vec<Step>, Vec<String>) {
     checks_where(on_path)
+}
+
+/// The tests with what is asked of this machine, and a line about those that are skipped.
+pub fn tests(all: Step) -> (Step, Option<String>) {
+    tests_where(all, on_path)
+}
+
+fn tests_where(mut all: Step, installed: impl Fn(&str) -> bool) -> (Step, Option<String>) {
+    if BROWSERS.into_iter().any(installed) {
+        all.env.push(("CATOPTRIC_REQUIRE_BROWSER", "1".to_owned()));
+        return (all, None);
+    }
+    let line = "skipped the tests of the pages in a browser: chromium is not installed \
+                (Debian, Ubuntu: apt-get install chromium)";
+    (all, Some(line.to_owned()))
 }
 
 /// The checks on a machine that has those programs of which `installed` says so.
@@ -83,6 +106,17 @@ mod tests {
         assert_eq!(steps.len(), 3 + TOOLS.len());
         assert!(shown(&steps).contains(&"taplo fmt --check".to_owned()));
         assert!(skipped.is_empty());
+    }
+
+    #[test]
+    fn the_pages_are_tested_where_there_is_a_browser() {
+        let tests = || Step::cargo("test");
+        let (step, line) = tests_where(tests(), |program| program == "google-chrome");
+        assert_eq!(step.shown(), "CATOPTRIC_REQUIRE_BROWSER=1 cargo test");
+        assert_eq!(line, None);
+        let (step, line) = tests_where(tests(), |_| false);
+        assert_eq!(step.shown(), "cargo test");
+        assert!(line.is_some_and(|line| line.contains("chromium is not installed")));
     }
 
     #[test]

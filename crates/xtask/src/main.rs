@@ -114,7 +114,9 @@ fn run(chore: Chore) -> Result<u8> {
         Chore::Ci => {
             let (mut steps, lines) = ci::checks();
             skipped = lines;
-            steps.push(test());
+            let (tests, line) = ci::tests(test());
+            skipped.extend(line);
+            steps.push(tests);
             (&[Need::Vulkan, Need::CppCompiler], steps)
         }
         Chore::Fuzz { minutes, target } => (&[], vec![fuzz(*minutes, target.as_deref())]),

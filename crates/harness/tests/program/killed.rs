@@ -47,7 +47,8 @@ fn shown(page: &str) -> Vec<String> {
             .map(str::to_owned)
             .collect()
     };
-    [named(" src=\""), named(" href=\"")].concat()
+    let names = [" src=\"", " href=\"", " data-layers=\"", " data-truth=\""];
+    names.map(named).concat()
 }
 
 fn all_files(folder: &Path) -> Vec<PathBuf> {

@@ -39,6 +39,7 @@ mod load_options;
 mod loading;
 pub mod mesh;
 pub mod mirror;
+pub mod model;
 pub mod motion;
 mod mtl;
 mod obj;

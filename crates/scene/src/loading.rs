@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use crate::model::PictureSource;
 use crate::picture::Picture;
 use crate::texture::Texture;
 
@@ -45,7 +46,30 @@ impl Loading {
         if let Some(texture) = self.textures.borrow().get(&file) {
             return Ok(Arc::clone(texture));
         }
-        let picture = Picture::open(&file)?;
+        let texture = self.decoded(&Picture::open(&file)?)?;
+        self.textures
+            .borrow_mut()
+            .insert(file, Arc::clone(&texture));
+        Ok(texture)
+    }
+
+    /// The picture that a model names or holds.
+    pub(crate) fn picture(&self, source: &PictureSource) -> Result<Arc<Texture>, String> {
+        match source {
+            PictureSource::File(path) => {
+                let of_file = |message: String| format!("{} {message}", path.display());
+                self.texture(path).map_err(of_file)
+            }
+            PictureSource::Bytes(bytes) => {
+                let picture = Picture::of(bytes.clone());
+                let decoded = picture.and_then(|picture| self.decoded(&picture));
+                decoded.map_err(|message| format!("a picture in it {message}"))
+            }
+        }
+    }
+
+    /// Decodes a picture, if there are not too many texels in the scene.
+    fn decoded(&self, picture: &Picture) -> Result<Arc<Texture>, String> {
         let [width, height] = picture.size();
         let texels = u64::from(width) * u64::from(height);
         let all = self.texels.get() + texels;
@@ -56,11 +80,7 @@ impl Loading {
             ));
         }
         self.texels.set(all);
-        let texture = Arc::new(picture.decode()?);
-        self.textures
-            .borrow_mut()
-            .insert(file, Arc::clone(&texture));
-        Ok(texture)
+        Ok(Arc::new(picture.decode()?))
     }
 
     /// Notes what is odd but keeps nothing from loading.

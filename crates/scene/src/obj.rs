@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3};
 
 pub(crate) use self::palette::Materials;
 use self::palette::Palette;
-use self::polygon::Triangulator;
+pub(crate) use self::polygon::Triangulator;
 use self::statements::{Corner, Statements};
 use crate::SceneError;
 use crate::geometry::Geometry;

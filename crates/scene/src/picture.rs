@@ -23,7 +23,11 @@ pub(crate) struct Picture {
 impl Picture {
     /// Reads a file and looks at its header.
     pub(crate) fn open(path: &Path) -> Result<Self, String> {
-        let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
+        Self::of(std::fs::read(path).map_err(|error| error.to_string())?)
+    }
+
+    /// Looks at the header of a file's bytes.
+    pub(crate) fn of(bytes: Vec<u8>) -> Result<Self, String> {
         let Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) = image::guess_format(&bytes)
         else {
             return Err("is neither a PNG nor a JPEG picture".to_owned());
@@ -138,6 +142,11 @@ enum Transfer {
     Bt709,
     /// To the power of this.
     Power(f64),
+}
+
+/// The linear value of an encoded one, both 0 to 1 (IEC 61966-2-1).
+pub(crate) fn linear_from_srgb(value: f64) -> f64 {
+    Transfer::Srgb.linear(value)
 }
 
 impl Transfer {

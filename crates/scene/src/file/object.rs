@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 
 use super::origin::{Origin, name};
-use super::surface::{PRIMITIVES, Surface, copies, primitive};
+use super::surface::{PRIMITIVES, Surface, copies, find, primitive};
 use crate::document::Table;
 use crate::geometry::{Geometry, Purpose, Transform};
 use crate::mesh::{Material, Mesh, Paint};
@@ -17,6 +17,8 @@ pub(super) struct Spec {
     name: String,
     form: Form,
     paint: Option<Paint>,
+    /// A picture of its colour, and what that is multiplied by.
+    texture: Option<(String, Vec3)>,
     copies: Vec<Transform>,
 }
 
@@ -37,6 +39,7 @@ pub(super) fn spec(table: &Table<'_>) -> Result<Spec, SceneError> {
     let color = table.color("color")?;
     let checker = table.table("checker")?;
     let vertex_colors = table.boolean("vertex_colors")?.filter(|wanted| *wanted);
+    let texture = table.string("texture")?.map(str::to_owned);
     let copies = copies(table)?;
     let form = match (mesh, shape) {
         (Some(_), Some(_)) => return Err(table.error("mesh", "and `shape` exclude each other")),
@@ -69,7 +72,9 @@ pub(super) fn spec(table: &Table<'_>) -> Result<Spec, SceneError> {
     };
 
     let mut paints = Vec::new();
-    paints.extend(color.map(|color| ("color", Paint::Color(color))));
+    if texture.is_none() {
+        paints.extend(color.map(|color| ("color", Paint::Color(color))));
+    }
     if let Some(checker) = checker {
         paints.push(("checker", paint_checker(&checker)?));
     }
@@ -80,6 +85,9 @@ pub(super) fn spec(table: &Table<'_>) -> Result<Spec, SceneError> {
     {
         return Err(table.error("colors", format_args!("and `{first}` exclude each other")));
     }
+    if let (Some(_), Some((other, _))) = (&texture, paints.first()) {
+        return Err(table.error("texture", format_args!("and `{other}` exclude each other")));
+    }
     if let [(first, _), (second, _), ..] = paints.as_slice() {
         return Err(table.error(first, format_args!("and `{second}` exclude each other")));
     }
@@ -88,6 +96,7 @@ pub(super) fn spec(table: &Table<'_>) -> Result<Spec, SceneError> {
         name,
         form,
         paint,
+        texture: texture.map(|file| (file, color.unwrap_or(Vec3::ONE))),
         copies,
     })
 }
@@ -168,7 +177,8 @@ impl Spec {
         };
         let mut geometry = match &self.form {
             Form::Surface(surface) => {
-                surface.geometry(table, origin, self.paint.is_some(), copies)?
+                let painted = self.paint.is_some() || self.texture.is_some();
+                surface.geometry(table, origin, painted, copies)?
             }
             Form::Points(positions) => {
                 counted("positions", positions.len() as u64)?;
@@ -189,15 +199,27 @@ impl Spec {
             }
         };
         let is_mesh = matches!(self.form, Form::Surface(Surface::Mesh { .. }));
-        self.paint(table, &mut geometry, is_mesh)?;
+        let mut this = self;
+        if let Some((file, tint)) = &this.texture {
+            let path = find(table, "texture", file, origin)?;
+            let image = origin.loading.texture(&path).map_err(|message| {
+                table.error("texture", format_args!("{} {message}", path.display()))
+            })?;
+            if geometry.uvs.is_empty() {
+                return Err(table.error("texture", "needs texture coordinates, which it has not"));
+            }
+            let tint = *tint;
+            this.paint = Some(Paint::Texture { tint, image });
+        }
+        this.paint(table, &mut geometry, is_mesh)?;
         let mesh = geometry
-            .into_mesh(&self.copies, Purpose::Object)
+            .into_mesh(&this.copies, Purpose::Object)
             .map_err(|message| table.error_here(message))?;
-        let no_points = !matches!(self.form, Form::Surface(_));
+        let no_points = !matches!(this.form, Form::Surface(_));
         if mesh.triangles.is_empty() && !no_points {
             return Err(table.error_here("the mesh is empty: no triangle with area"));
         }
-        Ok((self.name, mesh))
+        Ok((this.name, mesh))
     }
 
     fn paint(

@@ -9,6 +9,7 @@ use glam::{DMat3, DVec2, DVec3, Vec3};
 use super::origin::Origin;
 use crate::document::{SMALLEST, Table, short};
 use crate::geometry::{Geometry, Transform, rotation};
+use crate::model::{self, Kind};
 use crate::obj::{self, Materials};
 use crate::{SceneError, primitives};
 
@@ -260,7 +261,18 @@ impl Surface {
                 colors,
             } => primitives::triangles(positions, triangles, colors),
             Self::Mesh { file, mtl } => {
-                let path = find(table, file, origin)?;
+                let path = find(table, "mesh", file, origin)?;
+                let used_by = |error: SceneError| {
+                    let (owner, file, line) = (table.owner(), table.file(), table.line("mesh"));
+                    error.used_by(format_args!("the mesh of {owner}, {file}:{line}"))
+                };
+                if model::kind(&path) != Kind::Obj {
+                    if mtl.is_some() {
+                        return Err(table.error("mtl", "goes with an OBJ file alone"));
+                    }
+                    return model::surface(&path, painted, copies, &origin.loading)
+                        .map_err(used_by);
+                }
                 let materials = match mtl {
                     _ if painted => Materials::Ignored,
                     None => Materials::Own,
@@ -273,17 +285,20 @@ impl Surface {
                         Materials::Other(other)
                     }
                 };
-                let (owner, file, line) = (table.owner(), table.file(), table.line("mesh"));
-                obj::read(&path, &materials, copies, &origin.loading).map_err(|error| {
-                    error.used_by(format_args!("the mesh of {owner}, {file}:{line}"))
-                })?
+                obj::read(&path, &materials, copies, &origin.loading).map_err(used_by)?
             }
         })
     }
 }
 
-/// A mesh file: beside the scene file, else in the models folder or its subfolder of that name.
-fn find(table: &Table<'_>, model: &str, origin: &Origin<'_>) -> Result<PathBuf, SceneError> {
+/// A file that a key names: beside the scene file, else in the models folder or its subfolder of that
+/// name.
+pub(super) fn find(
+    table: &Table<'_>,
+    key: &str,
+    model: &str,
+    origin: &Origin<'_>,
+) -> Result<PathBuf, SceneError> {
     let stem = Path::new(model).file_stem().unwrap_or_default();
     let models = origin.options.models.as_ref();
     let candidates = origin.folder.iter().map(|folder| folder.join(model)).chain(
@@ -300,7 +315,7 @@ fn find(table: &Table<'_>, model: &str, origin: &Origin<'_>) -> Result<PathBuf, 
     };
     Err(SceneError::MissingModel {
         file: table.file().to_owned(),
-        line: table.line("mesh"),
+        line: table.line(key),
         owner: table.owner().to_owned(),
         model: model.to_owned(),
         searched: match origin.folder {

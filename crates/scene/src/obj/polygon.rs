@@ -11,14 +11,14 @@ use earcut::{Earcut, deviation};
 use glam::{DVec2, DVec3};
 
 /// Triangulates faces one after another, with the same memory.
-pub(super) struct Triangulator {
+pub(crate) struct Triangulator {
     earcut: Earcut<f64>,
     points: Vec<DVec2>,
     triangles: Vec<u32>,
 }
 
 impl Triangulator {
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             earcut: Earcut::new(),
             points: Vec::new(),
@@ -28,7 +28,7 @@ impl Triangulator {
 
     /// Triangles of corner numbers, which run around as the face does. None where all corners lie
     /// on a line.
-    pub(super) fn triangulate(&mut self, corners: &[DVec3]) -> &[[u32; 3]] {
+    pub(crate) fn triangulate(&mut self, corners: &[DVec3]) -> &[[u32; 3]] {
         self.triangles.clear();
         self.points.clear();
         if corners.len() <= 3 {

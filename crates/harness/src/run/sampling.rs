@@ -99,6 +99,11 @@ impl Samples {
     /// there is none. Passes are only reported if more than half of the samples know theirs, and if
     /// their medians add up to that of the frame.
     pub fn passes(&self) -> Result<Vec<(String, f64)>, String> {
+        // A clock that lied once is not asked for parts of what it is not believed in whole.
+        let lied = self.frames.iter().find(|frame| frame.gpu_ms.is_none());
+        if let Some(reason) = lied.and_then(|frame| frame.passes_reason.clone()) {
+            return Err(reason);
+        }
         let known: Vec<_> = self
             .frames
             .iter()
@@ -182,6 +187,22 @@ mod tests {
         };
         assert!(frames([1.0, 1.05, 9.0]).passes().is_ok());
         assert!(frames([1.0, 1.2, 1.2]).passes().is_err());
+    }
+
+    #[test]
+    fn one_frame_whose_stamps_lie_leaves_no_gpu_time() {
+        let samples = Samples {
+            frames: vec![
+                frame(Some(1.0), Some(vec![("search", 1.0)])),
+                frame(Some(1.0), Some(vec![("search", 1.0)])),
+                frame(None, None),
+            ],
+        };
+        assert_eq!(
+            (samples.gpu(), samples.passes()),
+            (None, Err("no clock".to_owned()))
+        );
+        assert_eq!(samples.wall(), [1.0; 3]);
     }
 
     #[test]

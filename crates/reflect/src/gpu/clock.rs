@@ -41,6 +41,8 @@ pub(crate) struct Timer {
     idle: Option<wgpu::ComputePipeline>,
     /// Wall time of a submission with nothing but the lone stamp, milliseconds.
     latency_ms: f64,
+    /// The last stamp of the frame before; 0 before the first.
+    last: u64,
 }
 
 impl Timer {
@@ -56,6 +58,7 @@ impl Timer {
             idle: set.is_some().then(|| idle(gpu)),
             stamps: Stamps::new(set),
             latency_ms: 0.0,
+            last: 0,
         };
         let mut empty = [(); EMPTY].map(|()| {
             let commands = timer.lone_stamp(gpu);
@@ -132,10 +135,11 @@ impl Timer {
             .chunks_exact(8)
             .map(bytemuck::pod_read_unaligned)
             .collect();
-        if ticks.contains(&0) || !ticks.is_sorted() {
-            return without("a stamp is missing or earlier than the one before".to_owned());
-        }
         let period = f64::from(gpu.queue.get_timestamp_period()) * 1e-6;
+        let before = std::mem::replace(&mut self.last, ticks.last().copied().unwrap_or_default());
+        if let Err(reason) = judge(&ticks, self.stamps.names(), before, period) {
+            return without(reason);
+        }
         let mut passes: Vec<(String, f64)> = Vec::new();
         for (name, pair) in self.stamps.names().iter().zip(ticks.windows(2)) {
             let time = (pair[1] - pair[0]) as f64 * period;
@@ -163,6 +167,52 @@ impl Timer {
     }
 }
 
+/// Ticks that are finer than this, in milliseconds, tell any two passes apart.
+const FINE_TICK_MS: f64 = 1e-3;
+
+/// Whether the stamps of a frame can be believed: stamp 0 is the lone one, stamp `i + 1` ends pass `i`.
+/// `before` is the last stamp of the frame before, which had been waited for.
+///
+/// # Errors
+/// Why they cannot.
+fn judge(ticks: &[u64], names: &[String], before: u64, period_ms: f64) -> Result<(), String> {
+    let what = |index: usize| match index.checked_sub(1).and_then(|pass| names.get(pass)) {
+        Some(name) => format!("the end of pass `{name}`"),
+        None => "the start".to_owned(),
+    };
+    if ticks.iter().all(|tick| *tick == 0) {
+        return Err("all stamps are zero: the driver writes none".to_owned());
+    }
+    if let Some(index) = ticks.iter().position(|tick| *tick == 0) {
+        return Err(format!("the stamp of {} is zero", what(index)));
+    }
+    if let Some(index) = ticks.iter().position(|tick| *tick <= before) {
+        return Err(format!(
+            "the stamp of {} is of an earlier frame",
+            what(index)
+        ));
+    }
+    if let Some(index) = ticks.windows(2).position(|pair| pair[1] < pair[0]) {
+        return Err(format!(
+            "the stamp of {} is earlier than that of {}",
+            what(index + 1),
+            what(index)
+        ));
+    }
+    if ticks.len() > 1 && ticks.first() == ticks.last() {
+        return Err("all stamps are the same: the passes share a start".to_owned());
+    }
+    let shared = ticks.windows(2).position(|pair| pair[0] == pair[1]);
+    match shared.filter(|_| period_ms < FINE_TICK_MS) {
+        Some(index) => Err(format!(
+            "the stamps of {} and of {} are the same: the passes share a start",
+            what(index),
+            what(index + 1)
+        )),
+        None => Ok(()),
+    }
+}
+
 /// A pipeline that does nothing.
 fn idle(gpu: &Gpu) -> wgpu::ComputePipeline {
     let source = "@compute @workgroup_size(1) fn idle() {}";
@@ -181,4 +231,62 @@ fn idle(gpu: &Gpu) -> wgpu::ComputePipeline {
             compilation_options: Default::default(),
             cache: None,
         })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PERIOD: f64 = 1e-6;
+
+    fn judged(ticks: &[u64], before: u64) -> Result<(), String> {
+        let names = ["gbuffer", "search", "draw"].map(str::to_owned);
+        judge(ticks, &names, before, PERIOD)
+    }
+
+    #[test]
+    fn stamps_that_follow_each_other_are_believed() {
+        assert_eq!(judged(&[10, 20, 35, 36], 9), Ok(()));
+        assert_eq!(judged(&[10], 0), Ok(()));
+    }
+
+    #[test]
+    fn stamps_that_lie_are_told_apart() {
+        for (ticks, before, said) in [
+            ([0, 0, 0, 0], 0, "all stamps are zero"),
+            ([10, 20, 0, 30], 9, "the end of pass `search` is zero"),
+            ([0, 20, 25, 30], 9, "the start is zero"),
+            ([10, 20, 30, 40], 40, "the start is of an earlier frame"),
+            (
+                [50, 60, 30, 80],
+                40,
+                "the end of pass `search` is of an earlier frame",
+            ),
+            (
+                [50, 60, 55, 80],
+                40,
+                "`search` is earlier than that of the end of pass `gbuffer`",
+            ),
+            (
+                [50, 50, 50, 50],
+                40,
+                "all stamps are the same: the passes share a start",
+            ),
+            (
+                [50, 60, 60, 80],
+                40,
+                "`gbuffer` and of the end of pass `search` are the same",
+            ),
+        ] {
+            let error = judged(&ticks, before).expect_err(said);
+            assert!(error.contains(said), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_coarse_clock_may_count_two_short_passes_as_one() {
+        let names = ["a".to_owned(), "b".to_owned()];
+        assert_eq!(judge(&[5, 6, 6], &names, 4, 0.01), Ok(()));
+        assert!(judge(&[5, 6, 6], &names, 4, 1e-6).is_err());
+    }
 }

@@ -9,6 +9,7 @@ mod channels;
 mod error;
 pub mod exr;
 pub mod image;
+pub mod layers;
 mod names;
 pub mod png;
 pub mod results;
@@ -18,7 +19,7 @@ pub use atomic::{check_writable, write_together, write_whole};
 pub use channels::Channels;
 pub use error::FrameError;
 pub use image::Image;
-pub use png::{write_png, write_png_rgb8};
+pub use png::{write_png, write_png_rgb8, write_png16};
 pub use results::{Traced, Triangles, TrueVertex, VertexClass, VertexResult, VertexState, Work};
 pub use unfinished::{NewFolder, abandon_writes, create_folders, is_abandoned, sweep};
 

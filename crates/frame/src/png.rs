@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use glam::Vec3;
-use image::ImageEncoder;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{ExtendedColorType, ImageEncoder};
 
 use crate::{FrameError, Image, write_whole};
 
@@ -33,17 +33,37 @@ pub fn write_png(image: &Image<Vec3>, path: impl AsRef<Path>) -> Result<(), Fram
 
 /// Writes pixels that are already 8-bit sRGB.
 pub fn write_png_rgb8(image: &Image<[u8; 3]>, path: impl AsRef<Path>) -> Result<(), FrameError> {
-    let path = path.as_ref();
-    let [width, height] = image.size();
+    let bytes = image.pixels().as_flattened();
+    write(bytes, image.size(), ExtendedColorType::Rgb8, path.as_ref())
+}
+
+/// Writes a linear image as 16-bit sRGB, for a texture; values outside 0 to 1 are clamped.
+pub fn write_png16(image: &Image<Vec3>, path: impl AsRef<Path>) -> Result<(), FrameError> {
+    let channel = |linear: f32| (srgb_from_linear(linear) * 65535.0).round() as u16;
+    let bytes: Vec<u8> = image
+        .pixels()
+        .iter()
+        .flat_map(|color| color.to_array().map(channel))
+        .flat_map(u16::to_ne_bytes)
+        .collect();
+    write(
+        &bytes,
+        image.size(),
+        ExtendedColorType::Rgb16,
+        path.as_ref(),
+    )
+}
+
+fn write(
+    bytes: &[u8],
+    [width, height]: [u32; 2],
+    kind: ExtendedColorType,
+    path: &Path,
+) -> Result<(), FrameError> {
     let mut png = Vec::new();
     // The fast kind makes files half as large again.
     PngEncoder::new_with_quality(&mut png, CompressionType::Default, FilterType::Adaptive)
-        .write_image(
-            image.pixels().as_flattened(),
-            width,
-            height,
-            image::ExtendedColorType::Rgb8,
-        )
+        .write_image(bytes, width, height, kind)
         .map_err(|source| FrameError::Png {
             path: path.into(),
             source,

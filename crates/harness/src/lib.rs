@@ -13,13 +13,14 @@
 //! - [`suites`]: the sweeps behind the papers' figures and the report: what to measure, and the
 //!   claims that read the outcome;
 //! - [`check`] holds the reference against another renderer's pictures, [`export`](mod@export)
-//!   writes scenes for one;
+//!   writes scenes for one, [`import`] takes over scenes from elsewhere;
 //! - [`cli`]: the command line, a file a verb.
 
 pub mod check;
 pub mod cli;
 pub mod exit;
 pub mod export;
+pub mod import;
 pub mod input;
 pub mod options;
 pub mod output;

@@ -5,5 +5,32 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
+    hush_wayland();
     catoptric::cli::main()
 }
+
+/// Vulkan drivers on Linux ask for Wayland although nothing is to be shown, and its library writes a
+/// line on stderr each time where `XDG_RUNTIME_DIR` is no absolute path. So it gets one: a folder where no
+/// Wayland socket is.
+#[cfg(all(unix, not(target_vendor = "apple")))]
+fn hush_wayland() {
+    const FOLDER: &str = "XDG_RUNTIME_DIR";
+    let set = std::env::var_os(FOLDER).is_some_and(|folder| {
+        let folder = std::path::Path::new(&folder);
+        folder.is_absolute()
+    });
+    let elsewhere = std::env::temp_dir();
+    if !set && elsewhere.is_absolute() {
+        #[allow(
+            unsafe_code,
+            reason = "the environment is changed before any other thread is started"
+        )]
+        // SAFETY: this is the first thing that the program does; no other thread reads it.
+        unsafe {
+            std::env::set_var(FOLDER, elsewhere);
+        }
+    }
+}
+
+#[cfg(not(all(unix, not(target_vendor = "apple"))))]
+fn hush_wayland() {}

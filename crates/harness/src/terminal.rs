@@ -19,6 +19,45 @@ pub fn in_a_line(text: &str) -> Cow<'_, str> {
     replaced(text, commands)
 }
 
+/// Columns of a line that people read: what the variable `COLUMNS` says, else those of the terminal
+/// that stdout is, else 80.
+pub fn width() -> usize {
+    let said = std::env::var("COLUMNS").ok();
+    let said = said.and_then(|columns| columns.trim().parse().ok());
+    said.filter(|columns| *columns > 0).unwrap_or_else(|| {
+        let size = console::Term::stdout().size_checked();
+        size.map_or(80, |(_, columns)| usize::from(columns))
+    })
+}
+
+/// Text in lines of at most `columns` characters, but for words that are longer.
+pub fn wrapped(text: &str, columns: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if length(line) + 1 + length(word) <= columns => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
+/// As much of a text as fits in so many columns, with an ellipsis where some is left out.
+pub fn cut(text: &str, columns: usize) -> Cow<'_, str> {
+    if length(text) <= columns {
+        return Cow::Borrowed(text);
+    }
+    let short: String = text.chars().take(columns.saturating_sub(1)).collect();
+    Cow::Owned(format!("{}…", short.trim_end()))
+}
+
+fn length(text: &str) -> usize {
+    text.chars().count()
+}
+
 fn replaced(text: &str, odd: impl Fn(char) -> bool) -> Cow<'_, str> {
     if !text.contains(&odd) {
         return Cow::Borrowed(text);
@@ -44,6 +83,15 @@ fn commands(c: char) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn lines_are_as_long_as_they_may_be() {
+        assert_eq!(wrapped("a bc  def", 4), ["a bc", "def"]);
+        assert_eq!(wrapped("abcdef g", 4), ["abcdef", "g"]);
+        assert_eq!(wrapped("", 4), Vec::<String>::new());
+        assert_eq!((&*cut("größe", 5), &*cut("größer", 5)), ("größe", "größ…"));
+        assert_eq!((&*cut("ab cd", 4), &*cut("ab", 1)), ("ab…", "…"));
+    }
 
     #[test]
     fn what_a_terminal_obeys_is_written_out() {

@@ -45,6 +45,17 @@ pub enum Family {
     Motion,
 }
 
+impl Family {
+    /// What techniques of the family do, and how they are named on the command line.
+    pub fn what(self) -> &'static str {
+        match self {
+            Self::Search => "finds reflection points of vertices; alone or with a refinement",
+            Self::Refinement => "chooses the points to search, as in `linear+full(level=3)`",
+            Self::ImageOrder => "finds what each mirror pixel's ray meets; stands alone",
+        }
+    }
+}
+
 impl fmt::Display for Family {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {

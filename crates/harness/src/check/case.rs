@@ -33,6 +33,9 @@ pub struct Request {
     /// Samples a pixel it was made with, in a regular grid; default: as its sidecar says, else 1
     #[arg(long, value_name = "N", value_parser = samples)]
     pub samples: Option<u32>,
+    /// Write the comparisons as JUnit's XML
+    #[arg(long, value_name = "FILE")]
+    pub junit: Option<PathBuf>,
 }
 
 /// Where reflected rays start.

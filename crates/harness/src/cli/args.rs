@@ -5,7 +5,10 @@ use clap::{Parser, Subcommand};
 use crate::check::case::Request;
 use crate::options::Common;
 
-use super::{bench, claims, compare, diff, export, list, reference, render, report, summary};
+use super::{
+    bench, claims, compare, completions, diff, export, import, list, page, reference, render,
+    report, summary,
+};
 
 /// How exact, how fast and how steady is a real-time reflection on a curved mirror?
 #[derive(Debug, Parser)]
@@ -39,6 +42,8 @@ pub enum Command {
     Bench(bench::Args),
     /// Measure a suite of scenes and write one page about it (-o DIR, default `report`)
     Report(report::Args),
+    /// Lay recorded runs on one page, or beside an earlier one (-o DIR, default `page`, or -o FILE.md)
+    Page(page::Args),
     /// Our image metrics on any two pictures (EXR; the first is taken for the truth)
     Diff(diff::Args),
     /// The short table of a recorded run (Markdown), on stdout or spliced into a text
@@ -47,10 +52,14 @@ pub enum Command {
     Claims(claims::Args),
     /// Write a scene for another renderer
     Export(export::Args),
+    /// Take over a scene from elsewhere (-o DIR): glTF 2, Mitsuba 3, PBRT
+    Import(import::Args),
     /// Compare our tracer with pictures that another renderer made of the same scenes
     Check(Request),
     /// Describe the graphics adapter and test its clock
     Doctor,
+    /// Write the completions of a shell to stdout
+    Completions(completions::Args),
 }
 
 #[cfg(test)]

@@ -12,9 +12,10 @@ use crate::check::layer::Layer;
 use crate::check::verdict::{Verdict, verdict};
 use crate::exit::Outcome;
 use crate::options::{Common, Format};
+use crate::output::check_writable;
 use crate::run::progress::Progress;
-use crate::show::print;
 use crate::show::table::Table;
+use crate::show::{junit, print};
 use crate::terminal::say;
 
 /// Where error maps go if nothing else is said.
@@ -22,6 +23,9 @@ const MAPS: &str = "check-errors";
 
 /// Checks one picture or all stored ones; error maps are written of what falls short.
 pub fn run(args: &Request, common: &Common) -> anyhow::Result<Outcome> {
+    if let Some(path) = &args.junit {
+        check_writable(path)?;
+    }
     let cases = case::cases(args, common)?;
     let progress = Progress::new(cases.len(), common.quiet);
     let mut verdicts = Vec::new();
@@ -35,6 +39,9 @@ pub fn run(args: &Request, common: &Common) -> anyhow::Result<Outcome> {
     progress.finish();
     let folder = common.output.clone().unwrap_or_else(|| PathBuf::from(MAPS));
     let maps = write_maps(&verdicts, &folder)?;
+    if let Some(path) = &args.junit {
+        junit::write("check", &junit_cases(&verdicts), path)?;
+    }
     show(&verdicts, common.format)?;
     if !common.quiet {
         remark(&verdicts);
@@ -47,6 +54,24 @@ pub fn run(args: &Request, common: &Common) -> anyhow::Result<Outcome> {
     } else {
         Outcome::FellShort
     })
+}
+
+/// A case for each layer of each comparison.
+fn junit_cases(verdicts: &[Verdict<'_>]) -> Vec<junit::Case> {
+    let rows = verdicts.iter().flat_map(|verdict| {
+        let layers = verdict.measured.layers.iter();
+        layers.map(move |layer| (verdict, layer))
+    });
+    let case = |(verdict, layer): (&Verdict<'_>, &Layer)| junit::Case {
+        class: verdict.case.name.clone(),
+        name: format!("{}, rays start: {}", layer.layer, start_name(verdict.start)),
+        outcome: match verdict.of(layer) {
+            "ok" => junit::Outcome::Passed,
+            said @ "nothing to compare" => junit::Outcome::Skipped(said.to_owned()),
+            said => junit::Outcome::Failed(format!("{said}: the limit is {}", layer.limit)),
+        },
+    };
+    rows.map(case).collect()
 }
 
 fn truth_name(truth: Truth) -> String {

@@ -18,7 +18,7 @@ use crate::run::interrupt::interrupted;
 use crate::run::load::parse;
 use crate::run::{Setup, measure, product};
 use crate::show::table::cell;
-use crate::show::{changes, print, records};
+use crate::show::{changes, junit, print, records};
 use crate::terminal::say;
 
 /// What `compare` is asked.
@@ -37,6 +37,9 @@ pub struct Args {
     /// Gate such as `angular_error_deg.p99<=0.05`: exit code 1 where a row breaks it
     #[arg(long, value_name = "METRIC<=X")]
     pub require: Vec<String>,
+    /// Write what --require and --against found as JUnit's XML
+    #[arg(long, value_name = "FILE")]
+    pub junit: Option<PathBuf>,
     /// Seconds of timing for each scene, shared by the techniques
     #[arg(long, value_name = "SECONDS", default_value_t = 6.0, value_parser = seconds)]
     pub time_budget: f64,
@@ -55,6 +58,9 @@ pub fn run(args: &Args, common: &Common) -> anyhow::Result<Outcome> {
         .collect::<anyhow::Result<Vec<_>>>()?;
     let baseline = args.against.as_deref().map(read_baseline).transpose()?;
     let file = common.output.as_deref().map(to_file).transpose()?;
+    if let Some(path) = &args.junit {
+        check_writable(path)?;
+    }
     each_pair_once(&args.scenes, &args.techniques)?;
     let timing = Duration::from_secs_f64(args.time_budget);
     let wanted = product(&args.scenes, &args.techniques, timing, args.frames);
@@ -97,6 +103,13 @@ pub fn run(args: &Args, common: &Common) -> anyhow::Result<Outcome> {
             setup.progress.remark(changes.trim_end());
         }
         (Some(_), Format::Csv) | (None, _) => {}
+    }
+    if let Some(path) = &args.junit {
+        let mut cases = junit::of_rows(&rows, &values, &gates);
+        if let Some(baseline) = &baseline {
+            cases.extend(junit::of_changes(&against::changes(baseline, &values)));
+        }
+        junit::write("compare", &cases, path)?;
     }
     Ok(outcome(&rows, &values, &gates, setup.rows()))
 }

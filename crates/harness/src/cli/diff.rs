@@ -4,15 +4,15 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use catoptric_frame::{Channels, Frame, Image, Name};
-use catoptric_metrics::{
-    Colormap, Comparison, MapKind, MotionError, flip::DEFAULT_PIXELS_PER_DEGREE,
-};
+use catoptric_metrics::{Comparison, MotionError, flip::DEFAULT_PIXELS_PER_DEGREE};
 use serde_json::{Value, json};
 
 use crate::exit::{Outcome, bad_input};
 use crate::options::Common;
-use crate::output::check_writable;
+use crate::output::{Draft, PICTURES, check_writable};
+use crate::show::pair::{self, color_map};
 use crate::show::{pictures, print};
+use crate::suites::runner::refuse_file_name;
 
 /// What `diff` is asked.
 #[derive(Clone, Debug, clap::Args)]
@@ -37,7 +37,7 @@ pub enum Map {
 }
 
 /// Compares two EXR pictures: all metrics where both have the layers and show a mirror, colour alone
-/// and why otherwise. `-o FILE.png` writes a map of the colour error.
+/// and why otherwise. `-o FILE.png` writes a map of the error, `-o DIR` a page with all maps.
 pub fn run(
     Args {
         reference,
@@ -46,8 +46,10 @@ pub fn run(
     }: &Args,
     common: &Common,
 ) -> anyhow::Result<Outcome> {
-    if let Some(path) = &common.output {
-        check_map(path, [reference, test])?;
+    match &common.output {
+        Some(path) if is_map(path) => check_map(path, [reference, test])?,
+        Some(path) => refuse_file_name(path)?,
+        None => {}
     }
     let mut notes = Vec::new();
     let [mut a, mut b] = [read(reference, &mut notes)?, read(test, &mut notes)?];
@@ -85,12 +87,9 @@ pub fn run(
             )));
         }
     }
-    if let Some(path) = &common.output {
+    if let Some(path) = common.output.as_deref().filter(|path| is_map(path)) {
         let painted = match map {
-            Map::Color => {
-                let map = color_error(&a, &b);
-                catoptric_metrics::colorize(&map, [0.0, 1.0], Colormap::Magma)
-            }
+            Map::Color => color_map(&a, &b),
             Map::Motion => {
                 let map = catoptric_metrics::motion_map(&a, &b);
                 pictures::motion_map(&map.map_err(|error| bad_input(error.to_string()))?)
@@ -106,19 +105,23 @@ pub fn run(
             result.insert("note".to_owned(), notes.join("; ").into());
         }
     }
+    if let Some(folder) = common.output.as_deref().filter(|path| !is_map(path)) {
+        let mut draft = Draft::begin(folder, &[PICTURES])?;
+        let page = pair::page(&a, &b, &result, &draft)?;
+        draft.put_alone(&page)?;
+    }
     print::text(&print::facts(&result, common.format))?;
     Ok(Outcome::Done)
 }
 
-/// Refuses what is no name for the map, and either picture.
-fn check_map(path: &Path, pictures: [&PathBuf; 2]) -> anyhow::Result<()> {
+/// Whether a name is that of a single map.
+fn is_map(path: &Path) -> bool {
     let ending = path.extension().and_then(|ending| ending.to_str());
-    if !ending.is_some_and(|ending| ending.eq_ignore_ascii_case("png")) {
-        return Err(bad_input(format!(
-            "-o {}: a map of the colour error is written, as .png; the numbers go to stdout",
-            path.display()
-        )));
-    }
+    !path.is_dir() && ending.is_some_and(|ending| ending.eq_ignore_ascii_case("png"))
+}
+
+/// Refuses a map that would replace either picture.
+fn check_map(path: &Path, pictures: [&PathBuf; 2]) -> anyhow::Result<()> {
     let file = |path: &Path| std::fs::canonicalize(path).ok();
     let map = file(path);
     if map.is_some() && pictures.iter().any(|picture| file(picture) == map) {
@@ -240,17 +243,5 @@ fn of_color(a: &Frame, b: &Frame, notes: &mut Vec<String>) -> anyhow::Result<Val
 fn left_out(pixels: u64) -> Option<String> {
     (pixels > 0).then(|| {
         format!("left out of the means: {pixels} pixels whose colour is NaN or infinite in either picture")
-    })
-}
-
-/// Mean absolute difference over the channels: on the mirrors where both have layers, else
-/// everywhere.
-fn color_error(a: &Frame, b: &Frame) -> Image<f32> {
-    catoptric_metrics::error_map(MapKind::AbsColor, a, b).unwrap_or_else(|_| {
-        let pairs = a.color.pixels().iter().zip(b.color.pixels());
-        let errors = pairs
-            .map(|(a, b)| (*a - *b).abs().element_sum() / 3.0)
-            .collect();
-        Image::from_vec(a.color.size(), errors)
     })
 }

@@ -5,10 +5,13 @@ mod bench;
 mod check;
 mod claims;
 mod compare;
+mod completions;
 mod diff;
 mod doctor;
 mod export;
+mod import;
 mod list;
+mod page;
 mod picture;
 mod reference;
 mod render;
@@ -19,7 +22,7 @@ mod unused;
 
 use std::process::ExitCode;
 
-use clap::{CommandFactory, FromArgMatches};
+use clap::FromArgMatches;
 
 use crate::exit::{self, Outcome, bad_input};
 use crate::options::Common;
@@ -31,7 +34,7 @@ use self::args::{Cli, Command};
 /// The program: reads the command line, does what it says, and answers with an exit code.
 pub fn main() -> ExitCode {
     interrupt::end_cleanly();
-    let matches = Cli::command().try_get_matches();
+    let matches = unused::command().try_get_matches();
     let (matches, cli) = match matches.and_then(|all| Ok((Cli::from_arg_matches(&all)?, all))) {
         Ok((cli, matches)) => (matches, cli),
         Err(error) => return misread(&error),
@@ -66,11 +69,14 @@ fn run(Cli { command, common }: Cli) -> anyhow::Result<Outcome> {
         Command::Compare(args) => compare::run(&args, &common),
         Command::Bench(args) => bench::run(&args, &common),
         Command::Report(args) => report::run(&args, &common),
+        Command::Page(args) => page::run(&args, &common),
         Command::Diff(args) => diff::run(&args, &common),
         Command::Summary(args) => summary::run(&args, &common),
         Command::Claims(args) => claims::run(&args, &common),
         Command::Export(args) => export::run(&args, &common),
+        Command::Import(args) => import::run(&args, &common),
         Command::Check(args) => check::run(&args, &common),
+        Command::Completions(args) => completions::run(&args),
         Command::Doctor => doctor::run(&common),
     }
 }

@@ -5,6 +5,7 @@ use clap::ValueEnum;
 use crate::exit::Outcome;
 use crate::options::{Common, seconds};
 use crate::show::layers::Extent;
+use crate::suites::part::Part;
 use crate::suites::{report, runner};
 
 /// What `report` is asked.
@@ -23,6 +24,9 @@ pub struct Args {
     /// page: objects, colours and errors are always written
     #[arg(long)]
     pub layers: bool,
+    /// The K-th of N parts, for one of several machines: `page` joins their records
+    #[arg(long, value_name = "K/N")]
+    pub part: Option<Part>,
 }
 
 /// Suites of the `report` command.
@@ -49,6 +53,7 @@ pub fn run(args: &Args, common: &Common) -> anyhow::Result<Outcome> {
         } else {
             Extent::Usual
         },
+        part: args.part,
     };
     runner::run(suite, choice, common)
 }

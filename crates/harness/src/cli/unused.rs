@@ -1,9 +1,12 @@
-//! Options that every command understands, and some cannot use: refused rather than ignored.
+//! Options that every command understands, and some cannot use: left out of its help, and refused
+//! rather than ignored.
 
-use clap::ArgMatches;
 use clap::parser::ValueSource;
+use clap::{Arg, ArgMatches, CommandFactory};
 
 use crate::exit::bad_input;
+
+use super::args::Cli;
 
 /// The common options, by what clap calls them and by what they are called on the command line.
 const COMMON: [(&str, &str); 6] = [
@@ -15,17 +18,30 @@ const COMMON: [(&str, &str); 6] = [
     ("output", "-o"),
 ];
 
-/// Which of them a command uses. `--quiet` does no harm anywhere.
+/// The option that does no harm where it is not used.
+const QUIET: &str = "quiet";
+
+/// Which of them a command uses.
 fn used(command: &str, listing: Option<&str>) -> &'static [&'static str] {
     match (command, listing) {
-        ("list", Some("scenes")) => &["models", "format", "output"],
+        ("list", None | Some("scenes")) => &["models", "format", "output"],
         ("list" | "summary", _) => &["format", "output"],
-        ("reference", _) => &["resolution", "models", "bounces", "output"],
-        ("render", _) => &["resolution", "models", "adapter", "output"],
-        ("report", _) => &["resolution", "models", "adapter", "bounces", "output"],
-        ("diff", _) => &["format", "output"],
-        ("export", _) => &["resolution", "models", "bounces"],
-        ("check", _) => &["resolution", "models", "bounces", "format", "output"],
+        ("reference", _) => &["resolution", "models", "bounces", "output", QUIET],
+        ("render", _) => &["resolution", "models", "adapter", "output", QUIET],
+        ("report", _) => &[
+            "resolution",
+            "models",
+            "adapter",
+            "bounces",
+            "output",
+            QUIET,
+        ],
+        ("diff" | "claims", _) => &["format", "output"],
+        ("page", _) => &["output"],
+        ("import", _) => &["output", QUIET],
+        ("completions", _) => &[],
+        ("export", _) => &["resolution", "models", "bounces", QUIET],
+        ("check", _) => &["resolution", "models", "bounces", "format", "output", QUIET],
         ("doctor", _) => &["adapter", "format", "output"],
         // `compare` and `bench`.
         _ => &[
@@ -35,6 +51,7 @@ fn used(command: &str, listing: Option<&str>) -> &'static [&'static str] {
             "bounces",
             "format",
             "output",
+            QUIET,
         ],
     }
 }
@@ -46,8 +63,33 @@ fn instead(command: &str, option: &str) -> &'static str {
         ("report", "format") => ": it is a page, and its numbers are in `record.json` beside it",
         ("reference" | "render", "format") => ": the ending of -o FILE says how, .exr or .png",
         ("list", "adapter") => ": all adapters are listed",
+        ("page", "format") => ": -o DIR or -o FILE.md says how",
+        ("completions", "output") => ": they go to stdout",
         _ => "",
     }
+}
+
+/// The command line, where each command's help has the common options that it uses and no others.
+pub fn command() -> clap::Command {
+    let all = Cli::command();
+    let common: Vec<Arg> = all
+        .get_arguments()
+        .filter(|arg| arg.is_global_set())
+        .cloned()
+        .collect();
+    let names: Vec<String> = all
+        .get_subcommands()
+        .map(|command| command.get_name().to_owned())
+        .collect();
+    names.into_iter().fold(all, |all, name| {
+        let used = used(&name, None);
+        let hidden: Vec<Arg> = common
+            .iter()
+            .filter(|arg| !used.contains(&arg.get_id().as_str()))
+            .map(|arg| arg.clone().hide(true))
+            .collect();
+        all.mut_subcommand(name, |command| command.args(hidden))
+    })
 }
 
 /// Refuses an option on the command line that the command would ignore.
@@ -69,4 +111,34 @@ pub fn refuse(matches: &ArgMatches) -> anyhow::Result<()> {
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn help_has_what_a_command_uses_and_nothing_else() {
+        let mut all = command();
+        all.build();
+        for command in all.get_subcommands_mut() {
+            let name = command.get_name().to_owned();
+            if name == "help" {
+                continue;
+            }
+            let used = used(&name, None);
+            let help = command.render_long_help().to_string();
+            for (id, option) in COMMON.into_iter().chain([(QUIET, "--quiet")]) {
+                let option = match option {
+                    "-o" => "--output",
+                    option => option,
+                };
+                let shown = help.lines().any(|line| {
+                    let words = line.trim_start().split([' ', ',']);
+                    line.trim_start().starts_with('-') && words.into_iter().any(|w| w == option)
+                });
+                assert_eq!(shown, used.contains(&id), "{name}: {option}\n{help}");
+            }
+        }
+    }
 }

@@ -1,6 +1,8 @@
 //! A scene for another renderer.
 
 pub mod mitsuba;
-mod ply;
+pub(crate) mod ply;
 mod sides;
 pub mod vectors;
+
+pub(crate) use sides::SHEET;

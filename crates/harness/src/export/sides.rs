@@ -9,7 +9,7 @@ use glam::{DVec3, Vec3};
 
 /// Distance of each of the two sheets from the triangle, as a share of 1 + its largest coordinate:
 /// some ten steps of f32, so that Mitsuba's rounding does not mix them up.
-const SHEET: f32 = 2e-6;
+pub(crate) const SHEET: f32 = 2e-6;
 
 /// Everything rays start from.
 pub struct Viewpoints {

@@ -110,11 +110,25 @@ impl Draft {
     /// # Errors
     /// They cannot be written; then the earlier page stands, with its files.
     pub fn put(&mut self, page: &str, record: &[u8]) -> anyhow::Result<PathBuf> {
+        self.put_with(page, Some(record))
+    }
+
+    /// Puts a page that is not made from a record in place of what was there, as [`Draft::put`] does.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn put_alone(&mut self, page: &str) -> anyhow::Result<PathBuf> {
+        self.put_with(page, None)
+    }
+
+    fn put_with(&mut self, page: &str, record: Option<&[u8]>) -> anyhow::Result<PathBuf> {
         let page = self.with_suffix(page);
         let (path, record_path) = (self.folder.join(PAGE), self.folder.join(RECORD));
         let parts = self.parts.iter_mut().map(|part| &mut part.folder);
         let mut folders: Vec<&mut NewFolder> = parts.chain(&mut self.made).collect();
-        let files = [(path.as_path(), page.as_bytes()), (&record_path, record)];
+        let page = (path.as_path(), page.as_bytes());
+        let record = record.map(|record| (record_path.as_path(), record));
+        let files: Vec<_> = std::iter::once(page).chain(record).collect();
         write_together(&files, &mut folders)?;
         // What the page before showed.
         remove_forsaken(&self.folder);

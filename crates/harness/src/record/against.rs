@@ -119,7 +119,7 @@ fn text(row: &Value, key: &str) -> String {
 }
 
 /// How a metric moved; `None` within noise or where neither row has it.
-fn change(then: &Value, now: &Value, metric: &'static Metric) -> Option<What> {
+pub(super) fn change(then: &Value, now: &Value, metric: &'static Metric) -> Option<What> {
     let value = |row: &Value| number(row, &metric.path);
     let (before, after) = (value(then), value(now));
     let timed = metric.unit == Unit::Milliseconds;

@@ -1,5 +1,7 @@
 //! Gates: `--require METRIC<=X`, checked on every measured row.
 
+use std::fmt;
+
 use catoptric_scene::suggest;
 use serde_json::Value;
 
@@ -14,6 +16,13 @@ pub struct Gate {
     path: String,
     at_most: bool,
     bound: f64,
+}
+
+impl fmt::Display for Gate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let sign = if self.at_most { "<=" } else { ">=" };
+        write!(f, "{}{sign}{}", self.path, self.bound)
+    }
 }
 
 impl Gate {

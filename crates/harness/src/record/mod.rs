@@ -3,8 +3,10 @@
 //! The bottom of the house: nothing here knows how a number is measured or shown.
 
 pub mod against;
+pub mod delta;
 pub mod file;
 pub mod gate;
+pub mod joined;
 pub mod metric;
 pub mod metrics;
 pub mod path;

@@ -193,6 +193,8 @@ pub struct Meta {
     pub bounces: u32,
     /// Seconds of timing for the scene, shared by the techniques; `None` where nothing is timed.
     pub time_budget_s: Option<f64>,
+    /// Which part of a suite was measured, as `2/3`; `None` where it was measured whole.
+    pub part: Option<String>,
     /// What a reader of the numbers must know.
     pub notes: Vec<String>,
 }

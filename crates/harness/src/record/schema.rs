@@ -25,6 +25,7 @@ const LATER: [&str; 15] = [
     "cluster_tests",
     "pairs",
     "longest_list",
+    "part",
     "bytes",
     "motion",
 ];

@@ -29,6 +29,7 @@ fn meta() -> Meta {
         scene_why: Some("For tests.".to_owned()),
         bounces: 8,
         time_budget_s: Some(6.0),
+        part: Some("1/2".to_owned()),
         notes: Vec::new(),
     }
 }

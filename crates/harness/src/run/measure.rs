@@ -10,7 +10,7 @@ use super::interrupt::interrupted;
 use super::motion::follow;
 use super::render::{Rendered, RowError, render};
 use super::sampling::time;
-use super::setup::{STEPS_A_ROW, Setup};
+use super::setup::Setup;
 use super::truth::{Truth, trace_reference};
 use super::vectors::judge;
 
@@ -52,7 +52,7 @@ pub fn measure(
             Ok(scene) => scene,
             Err(reason) => {
                 rows.extend(setup.unavailable(job, reason));
-                setup.progress.steps(STEPS_A_ROW * job.techniques.len());
+                setup.progress.steps(job.steps());
                 finished(None, &rows)?;
                 continue;
             }
@@ -85,17 +85,20 @@ pub fn measure(
             let share = techniques.len() as f64 / job.techniques.len() as f64;
             let timed = time(&mut rendered, job.timing.mul_f64(share));
 
-            let moving = scene.motion.is_some();
-            if let Some(frames) = job.frames.filter(|_| moving) {
-                doing(&format!("following {frames} frames"));
-                follow(&mut rendered, scene, frames)?;
+            if let Some(frames) = job.followed() {
+                let all = techniques.len();
+                follow(&mut rendered, scene, frames, |frame| {
+                    setup.progress.steps(if frame > 0 { all } else { 0 });
+                    doing(&format!("following, frame {} of {frames}", frame + 1));
+                })?;
+                setup.progress.steps(all);
             }
 
             let first = rows.len();
             let parts = techniques.iter().zip(&rendered).zip(compared).zip(timed);
             for (((spec, rendered), compared), samples) in parts {
                 let mut row = setup.record(job, scene, spec, rendered, compared, samples);
-                if job.frames.is_some() && !moving {
+                if job.frames.is_some() && job.followed().is_none() {
                     row.meta.notes.push(STILL.to_owned());
                 }
                 rows.push(row);

@@ -35,6 +35,7 @@ struct Seen {
 
 /// Follows techniques over `frames` frames of the scene's motion, but those that estimate it, all of them through a frame
 /// before the next, so that each frame's truth is found once. An interrupt ends the sequence early.
+/// `begin` is called before each frame.
 ///
 /// # Errors
 /// A scene that cannot be traced. What breaks in one technique breaks its row alone.
@@ -42,6 +43,7 @@ pub fn follow(
     rows: &mut [Result<Rendered<'_>, RowError>],
     scene: &Scene,
     frames: u32,
+    begin: impl Fn(u32),
 ) -> anyhow::Result<()> {
     let followed = |row: &Result<Rendered<'_>, RowError>| matches!(row, Ok(rendered) if !rendered.estimates_motion);
     if !rows.iter().any(followed) {
@@ -52,6 +54,7 @@ pub fn follow(
         if interrupted() && frame >= 2 {
             break;
         }
+        begin(frame);
         let posed = scene.at(frame);
         let options = RenderOptions::new(size(&posed), Truth::FirstBounce);
         let reference = Tracer::new(&posed)?.render(&options);

@@ -24,9 +24,9 @@ impl Progress {
             ProgressDrawTarget::hidden()
         };
         let bar = ProgressBar::with_draw_target(Some(steps as u64), target);
-        if let Ok(style) =
-            ProgressStyle::with_template("{bar:28} {pos}/{len} {elapsed:>4} {wide_msg}")
-        {
+        if let Ok(style) = ProgressStyle::with_template(
+            "{bar:20} {pos}/{len} {elapsed:>4}, {eta} left: {wide_msg}",
+        ) {
             bar.set_style(style);
         }
         if visible {

@@ -16,6 +16,7 @@ pub fn meta(bounces: u32) -> Meta {
         scene_why: None,
         bounces,
         time_budget_s: None,
+        part: None,
         notes: Vec::new(),
     }
 }

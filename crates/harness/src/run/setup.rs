@@ -94,8 +94,8 @@ impl Setup {
         for scene in jobs.iter().filter_map(|job| job.scene.as_ref().ok()) {
             check_size(size(scene), limit, "this adapter")?;
         }
-        let rows: usize = jobs.iter().map(|job| job.techniques.len()).sum();
-        let progress = Progress::new(STEPS_A_ROW * rows, common.quiet);
+        let steps = jobs.iter().map(Job::steps).sum();
+        let progress = Progress::new(steps, common.quiet);
         Ok(Self {
             jobs,
             gpu,
@@ -103,6 +103,12 @@ impl Setup {
             progress,
             meta: provenance::meta(common.bounces),
         })
+    }
+
+    /// The same, for the part of a suite that is named so.
+    pub fn of_part(mut self, part: Option<String>) -> Self {
+        self.meta.part = part;
+        self
     }
 
     /// Says what one has to know beforehand, and from now on keeps what is finished when
@@ -176,6 +182,18 @@ impl Setup {
 }
 
 impl Job {
+    /// Steps of progress: so many a row, and one for each frame that it is followed.
+    pub fn steps(&self) -> usize {
+        self.techniques.len() * (STEPS_A_ROW + self.followed().unwrap_or(0) as usize)
+    }
+
+    /// Frames of the scene's motion that its techniques are followed over; `None` where none are
+    /// asked for, or nothing moves.
+    pub fn followed(&self) -> Option<u32> {
+        let scene = self.scene.as_ref().ok()?;
+        self.frames.filter(|_| scene.motion.is_some())
+    }
+
     fn load(wanted: &Wanted, techniques: Vec<Spec>, common: &Common) -> anyhow::Result<Self> {
         let resolution = common.resolution.or(wanted.resolution);
         let options = LoadOptions {
@@ -205,7 +223,7 @@ impl Meta {
 }
 
 /// Steps of progress a row: rendered, recorded.
-pub const STEPS_A_ROW: usize = 2;
+const STEPS_A_ROW: usize = 2;
 
 /// Width and height where neither scene nor command line says.
 const DEFAULT_RESOLUTION: [u32; 2] = [640, 480];

@@ -27,7 +27,7 @@ pub fn table(changes: &[Change]) -> Table {
 const NONE: &str = "–";
 
 /// Metric, before, now, change and verdict.
-fn cells(what: &What) -> [String; 5] {
+pub(super) fn cells(what: &What) -> [String; 5] {
     let plain = |cells: [&str; 5]| cells.map(str::to_owned);
     let remark = |metric, verdict| plain([metric, NONE, NONE, NONE, verdict]);
     match what {

@@ -53,12 +53,21 @@ pub struct Names {
 
 /// Names of a row's pictures. One folder a scene and size, so that a sweep over sizes keeps all.
 pub fn names(row: &Record) -> Names {
-    let [width, height] = row.resolution;
-    let folder = format!("{FOLDER}/{}-{width}x{height}", slug(&row.scene));
-    let technique = slug(&row.technique);
     let levels = row.triangles.as_ref().map(|all| all.by_level.len());
     Names {
-        levels: (levels > Some(1)).then(|| format!("{folder}/{technique}.levels.png")),
+        levels: names_of(&row.scene, &row.technique, row.resolution)
+            .levels
+            .filter(|_| levels > Some(1)),
+        ..names_of(&row.scene, &row.technique, row.resolution)
+    }
+}
+
+/// Names of the pictures of a technique on a scene, of which some may not be there.
+pub fn names_of(scene: &str, technique: &str, [width, height]: [u32; 2]) -> Names {
+    let folder = format!("{FOLDER}/{}-{width}x{height}", slug(scene));
+    let technique = slug(technique);
+    Names {
+        levels: Some(format!("{folder}/{technique}.levels.png")),
         reference: format!("{folder}/reference.png"),
         full: format!("{folder}/reference-full.png"),
         technique: format!("{folder}/{technique}.png"),

@@ -54,7 +54,12 @@ const MOTION: [&str; 5] = [
 fn summary(rows: &[Value]) -> Table {
     let moves = rows.iter().any(|row| row["motion"].is_object());
     let motion = if moves { &MOTION[..] } else { &[] };
-    let mut table = numbers(rows, &[motion, &SHORT].concat());
+    with_remarks(rows, &[motion, &SHORT].concat())
+}
+
+/// The numbers at these paths, and the reasons of rows without any.
+pub fn with_remarks(rows: &[Value], paths: &[&str]) -> Table {
+    let mut table = numbers(rows, paths);
     let remarks: Vec<String> = rows.iter().map(remark).collect();
     if remarks.iter().any(|remark| !remark.is_empty()) {
         table.heading.push("remark".to_owned());

@@ -45,6 +45,7 @@ pub mod ledger;
 mod motion;
 mod page;
 mod papers;
+pub mod part;
 mod paths;
 mod pictures;
 mod plan;

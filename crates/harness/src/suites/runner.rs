@@ -20,6 +20,7 @@ use crate::terminal::say;
 
 use super::figure::Figure;
 use super::page::Content;
+use super::part::Part;
 use super::suite::{Asked, Layout, Picture, Studio, Suite};
 use super::{page, pictures, plan};
 
@@ -32,14 +33,17 @@ pub struct Choice<'c> {
     pub seconds: Option<f64>,
     /// Which values are written beside the pictures.
     pub extent: Extent,
+    /// Measures that part alone.
+    pub part: Option<Part>,
 }
 
-/// Measures a suite and writes its page.
+/// Measures a suite, or a part of it, and writes its page.
 pub fn run(suite: &Suite, choice: Choice<'_>, common: &Common) -> anyhow::Result<Outcome> {
     let Choice {
         scene,
         seconds,
         extent,
+        part,
     } = choice;
     let common = &Common {
         resolution: common.resolution.or(suite.resolution),
@@ -65,7 +69,11 @@ pub fn run(suite: &Suite, choice: Choice<'_>, common: &Common) -> anyhow::Result
         .chain(judged.iter().map(|(_, figure)| figure))
         .cloned()
         .collect();
-    let setup = Setup::new(&plan::wanted(&all, suite.timing.or(seconds)), common)?;
+    let mut wanted = plan::wanted(&all, suite.timing.or(seconds));
+    if let Some(part) = part {
+        wanted = part.of(wanted);
+    }
+    let setup = Setup::new(&wanted, common)?.of_part(part.map(|part| part.to_string()));
     let folder = common.output.clone().unwrap_or_else(|| folder(suite));
     refuse_file_name(&folder)?;
     let parts = match suite.layout {
@@ -100,7 +108,11 @@ pub fn run(suite: &Suite, choice: Choice<'_>, common: &Common) -> anyhow::Result
         let page = match suite.layout {
             Layout::Scenes => show::page::render(&rows, wanted)?,
             Layout::Figures => {
-                let own = own_pictures(suite, scene, &setup, common, &draft)?;
+                // They are not of single rows: of several parts the first has them.
+                let own = match part.is_none_or(Part::is_first) {
+                    true => own_pictures(suite, scene, &setup, common, &draft)?,
+                    false => Some(Vec::new()),
+                };
                 let content = Content {
                     suite,
                     figures,
@@ -119,7 +131,7 @@ pub fn run(suite: &Suite, choice: Choice<'_>, common: &Common) -> anyhow::Result
 }
 
 /// Refuses a folder that is called as a file is: it was hardly meant.
-fn refuse_file_name(folder: &Path) -> anyhow::Result<()> {
+pub fn refuse_file_name(folder: &Path) -> anyhow::Result<()> {
     let ending = folder.extension().and_then(|ending| ending.to_str());
     let of_a_file = ["json", "csv", "md", "html", "png", "exr", "svg"];
     if !folder.is_dir() && ending.is_some_and(|ending| of_a_file.contains(&ending)) {

@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use super::mutate::{self, NUMBERS, TEXTS, once_in, one};
 use super::targets::Input;
 
-fn random(seed: u64) -> Random {
+pub fn random(seed: u64) -> Random {
     Random::new(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x5eed)
 }
 
@@ -46,9 +46,10 @@ pub fn scene(seed: u64) -> Input {
 }
 
 /// Keys of an object or a mirror, and what they take.
-const KEYS: [(&str, Kind); 36] = [
+const KEYS: [(&str, Kind); 37] = [
     ("shape", Kind::Shape),
     ("mesh", Kind::Text),
+    ("texture", Kind::Text),
     ("center", Kind::Vector),
     ("radius", Kind::Number),
     ("radii", Kind::Vector),

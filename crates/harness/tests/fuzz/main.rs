@@ -6,6 +6,7 @@
 //! it is; the test that started it watches, and starts it anew behind an input that it fell over.
 //! Inputs that failed are kept in `target/tmp/fuzz/`.
 
+mod foreign;
 mod inputs;
 mod mutate;
 mod targets;
@@ -192,7 +193,7 @@ macro_rules! tests {
     };
 }
 
-tests!(scene, mesh, texture, exr, name, record);
+tests!(scene, mesh, texture, exr, name, record, model, import);
 
 #[test]
 fn a_failure_is_noticed() {

@@ -3,11 +3,11 @@
 use std::fs;
 use std::path::Path;
 
-use catoptric::record;
+use catoptric::{import, record};
 use catoptric_frame::{Channels, Frame};
 use catoptric_scene::LoadOptions;
 
-use super::inputs;
+use super::{foreign, inputs};
 
 /// Files of an input, the first of which is opened.
 pub struct Input(pub Vec<(&'static str, Vec<u8>)>);
@@ -31,7 +31,7 @@ pub struct Target {
 }
 
 /// All of them.
-pub const TARGETS: [Target; 6] = [
+pub const TARGETS: [Target; 8] = [
     Target {
         name: "scene",
         make: inputs::scene,
@@ -74,6 +74,39 @@ pub const TARGETS: [Target; 6] = [
             record::against::changes(&rows, &inputs::rows());
             record::against::changes(&inputs::rows(), &rows);
             true
+        },
+    },
+    Target {
+        name: "model",
+        make: foreign::model,
+        run: opens,
+    },
+    Target {
+        name: "import",
+        make: foreign::import,
+        run: |folder| {
+            // The folder is one worker's: the file of the input before is taken away.
+            let files = ["s.xml", "s.pbrt"].map(|name| folder.join(name));
+            let choice = import::Choice {
+                roughness: 0.15,
+                mirrors: Vec::new(),
+            };
+            let read = files.iter().filter(|file| file.is_file()).map(|file| {
+                let found = import::read(file, &choice);
+                let _ = fs::remove_file(file);
+                found
+            });
+            let out = folder.join("out");
+            let mut any = false;
+            for found in read.flatten() {
+                let written = import::write(&found, Path::new("s"), &out);
+                let scene = out.join("scene.toml");
+                if written.is_ok() && scene.is_file() {
+                    let name = scene.to_str().expect("a plain path");
+                    any |= catoptric_scene::open(name, &LoadOptions::default()).is_ok();
+                }
+            }
+            any
         },
     },
 ];

@@ -109,7 +109,7 @@ fn listings_go_into_files() {
         ("a.json", "["),
         ("a.csv", "name,"),
         ("a.md", "| name"),
-        ("a", "name "),
+        ("a", "search: "),
     ] {
         let output = catoptric(&["list", "techniques", "-o", &at(name)]);
         assert_eq!((code(&output), stdout(&output)), (0, ""), "{output:?}");

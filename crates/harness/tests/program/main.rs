@@ -10,9 +10,11 @@ mod claims;
 mod cli;
 mod export;
 mod goldens;
+mod import;
 #[cfg(unix)]
 mod killed;
 mod measuring;
 mod odd_pictures;
 mod robust;
 mod rooms;
+mod runs;

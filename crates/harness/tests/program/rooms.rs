@@ -3,7 +3,7 @@
 use std::path::Path;
 
 /// Each room, or file beside the rooms, and what it may know.
-const ROOMS: [(&str, &[&str]); 12] = [
+const ROOMS: [(&str, &[&str]); 13] = [
     ("terminal", &[]),
     ("exit", &["terminal"]),
     ("options", &[]),
@@ -20,11 +20,12 @@ const ROOMS: [(&str, &[&str]); 12] = [
     ),
     ("check", &["exit", "input", "options"]),
     ("export", &[]),
+    ("import", &["exit", "export", "input"]),
     (
         "cli",
         &[
-            "check", "exit", "export", "input", "options", "output", "record", "run", "show",
-            "suites", "terminal",
+            "check", "exit", "export", "import", "input", "options", "output", "record", "run",
+            "show", "suites", "terminal",
         ],
     ),
 ];

@@ -1,0 +1,24 @@
+//! `catoptric completions`: what a shell must know to complete our command lines.
+
+use clap_complete::Shell;
+
+use crate::exit::Outcome;
+use crate::show::print;
+
+use super::unused;
+
+/// What `completions` is asked.
+#[derive(Clone, Debug, clap::Args)]
+pub struct Args {
+    /// The shell
+    #[arg(value_enum)]
+    pub shell: Shell,
+}
+
+/// Writes a script that the shell reads: each command with the options that it uses.
+pub fn run(args: &Args) -> anyhow::Result<Outcome> {
+    let mut script = Vec::new();
+    clap_complete::generate(args.shell, &mut unused::command(), "catoptric", &mut script);
+    print::text(&String::from_utf8_lossy(&script))?;
+    Ok(Outcome::Done)
+}

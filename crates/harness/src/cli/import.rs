@@ -46,14 +46,17 @@ pub fn run(args: &Args, common: &Common) -> anyhow::Result<Outcome> {
         mirrors: args.mirror.clone(),
     };
     let found = import::read(&args.file, &choice)?;
-    let (path, left_out) = import::write(&found, &args.file, folder)?;
+    let (path, notes) = import::write(&found, &args.file, folder)?;
     let scene = catoptric_scene::open(&path.to_string_lossy(), &LoadOptions::default())?;
     crate::exit::warn(&scene);
     if common.quiet {
         return Ok(Outcome::Done);
     }
-    for what in found.left_out.iter().chain(&left_out) {
+    for what in &found.left_out {
         say(&format!("left out: {what}"));
+    }
+    for note in &notes {
+        say(note);
     }
     say(&format!(
         "{}: {} objects, {} mirrors, {} triangles",

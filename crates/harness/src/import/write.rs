@@ -50,7 +50,7 @@ pub fn write(found: &Found, from: &Path, folder: &Path) -> anyhow::Result<(PathB
     let mut writer = Writer {
         folder,
         text: String::new(),
-        left_out: Vec::new(),
+        notes: Vec::new(),
         files: HashMap::new(),
         textures: 0,
     };
@@ -75,13 +75,14 @@ pub fn write(found: &Found, from: &Path, folder: &Path) -> anyhow::Result<(PathB
     }
     let path = folder.join(SCENE_FILE);
     write_whole(&path, writer.text.as_bytes())?;
-    Ok((path, writer.left_out))
+    Ok((path, writer.notes))
 }
 
 struct Writer<'f> {
     folder: &'f Path,
     text: String,
-    left_out: Vec<String>,
+    /// What is not as it was, a sentence each.
+    notes: Vec<String>,
     /// Pictures that were written, by what they are.
     files: HashMap<Vec<u8>, String>,
     textures: usize,
@@ -100,8 +101,8 @@ impl Writer<'_> {
         let view = match &found.camera {
             Some(view) => view.clone(),
             None => {
-                self.left_out
-                    .push("a camera: there was none, so one was placed around all".to_owned());
+                self.notes
+                    .push("there is no camera in it: one was placed around all".to_owned());
                 cameras::around(&found.things)
             }
         };
@@ -202,8 +203,8 @@ impl Writer<'_> {
 
     /// Says that a round object has corners now.
     fn rounded(&mut self, thing: &Thing) {
-        self.left_out.push(format!(
-            "the roundness of the object `{}`: only mirrors are exact, objects have triangles",
+        self.notes.push(format!(
+            "the object `{}` was round and has triangles now: only mirrors are exact",
             thing.name
         ));
     }
@@ -293,8 +294,10 @@ impl Writer<'_> {
         let (mut vertices, mut uvs) = (0u64, 0u64);
         for (number, thing) in group.iter().enumerate() {
             let Form::Mesh { mesh, .. } = &thing.form else {
-                self.left_out
-                    .push(format!("a part of `{}` that is no mesh", thing.name));
+                self.notes.push(format!(
+                    "a part of `{}` is left out: it is no mesh",
+                    thing.name
+                ));
                 continue;
             };
             let _ = writeln!(mtl, "newmtl m{number}");
@@ -304,14 +307,18 @@ impl Writer<'_> {
                     let _ = writeln!(mtl, "Kd {r:?} {g:?} {b:?}");
                 }
                 Coat::Vertex => {
-                    self.left_out
-                        .push(format!("the vertex colours of a part of `{}`", thing.name));
+                    self.notes.push(format!(
+                        "the vertex colours of a part of `{}` are left out",
+                        thing.name
+                    ));
                 }
                 Coat::Checker { a, b, .. } => {
                     let [r, g, b] = ((*a + *b) / 2.0).to_array();
                     let _ = writeln!(mtl, "Kd {r:?} {g:?} {b:?}");
-                    self.left_out
-                        .push(format!("the cells of a part of `{}`", thing.name));
+                    self.notes.push(format!(
+                        "the cells of a part of `{}` are left out",
+                        thing.name
+                    ));
                 }
                 coat => {
                     let (file, tint) = self.picture(&thing.name, coat)?;
@@ -376,8 +383,8 @@ impl Writer<'_> {
                     [0x89, b'P', b'N', b'G', ..] => "png",
                     [0xff, 0xd8, 0xff, ..] => "jpg",
                     _ => {
-                        self.left_out.push(format!(
-                            "the picture of `{of}`, which is neither PNG nor JPEG"
+                        self.notes.push(format!(
+                            "the picture of `{of}` is left out: it is neither PNG nor JPEG"
                         ));
                         return Ok((None, *tint));
                     }

@@ -276,7 +276,7 @@ mod tests {
         let walled = |ms: f64| {
             let mut row = row("a", 0.9, 5.0);
             row["time_ms"] = json!({ "frame": null });
-            row["raw"] = json!({ "wall_ms": [ms; 8] });
+            row["raw"] = json!({ "wall_ms": vec![ms; 8] });
             row
         };
         let compared = delta(&[walled(5.0)], &[walled(6.0)]);

@@ -83,30 +83,37 @@ impl Reader<'_> {
             self.leave_out(format!("extension {name}"));
         }
         let scene = match root.scene {
-            Some(index) => root.get(index).ok_or("its `scene` is none of its scenes")?,
-            None => match root.scenes.first() {
-                Some(scene) => scene,
-                None => return Err("has no scene".to_owned()),
-            },
+            Some(index) => Some(root.get(index).ok_or("its `scene` is none of its scenes")?),
+            None => root.scenes.first(),
         };
-        for other in root
-            .scenes
-            .iter()
-            .filter(|other| !std::ptr::eq(*other, scene))
-        {
-            let name = other.name.as_deref().unwrap_or_default();
-            self.leave_out(format!("scene `{name}`, which is not the default one"));
+        for other in &root.scenes {
+            if scene.is_some_and(|scene| !std::ptr::eq(other, scene)) {
+                let name = other.name.as_deref().unwrap_or_default();
+                self.leave_out(format!("scene `{name}`, which is not the default one"));
+            }
         }
+        let tops: Vec<usize> = match scene {
+            Some(scene) => scene.nodes.iter().map(|node| node.value()).collect(),
+            // Without a scene all nodes are shown that are below none.
+            None => {
+                let below: Vec<usize> = (root.nodes.iter())
+                    .flat_map(|node| node.children.iter().flatten())
+                    .map(|child| child.value())
+                    .collect();
+                (0..root.nodes.len())
+                    .filter(|node| !below.contains(node))
+                    .collect()
+            }
+        };
         for animation in &root.animations {
             let name = animation.name.as_deref().unwrap_or_default();
             self.leave_out(format!("animation `{name}`"));
         }
         let mut seen = vec![false; root.nodes.len()];
-        let mut open: Vec<_> = scene
-            .nodes
-            .iter()
+        let mut open: Vec<(usize, DMat4)> = tops
+            .into_iter()
             .rev()
-            .map(|node| (node.value(), DMat4::IDENTITY))
+            .map(|node| (node, DMat4::IDENTITY))
             .collect();
         while let Some((number, above)) = open.pop() {
             let node = root.nodes.get(number);

@@ -538,7 +538,7 @@ impl Reader<'_> {
             "rectangle" => shapes::rectangle(matrix),
             "cube" => shapes::mesh(shapes::cube(), matrix),
             "disk" => {
-                self.leave_out(file, node, ": its round edge; it has 256 corners");
+                self.leave_out(file, node, ": its round edge; it has 128 corners");
                 shapes::mesh(shapes::disk(), matrix)
             }
             "obj" | "ply" => {
@@ -680,7 +680,19 @@ impl Reader<'_> {
             return Ok(Some(color));
         }
         if value.contains(':') {
-            return Ok(None);
+            let mut samples = Vec::new();
+            for pair in value
+                .split([',', ' ', '\n', '\t'])
+                .filter(|pair| !pair.is_empty())
+            {
+                let pair = self.numbers(file, node, &pair.replace(':', " "))?;
+                let [wavelength, value] = pair[..] else {
+                    return Err(file.error(node, &format!("`{value}` is no spectrum")));
+                };
+                samples.push((wavelength, value));
+            }
+            samples.sort_by(|a, b| a.0.total_cmp(&b.0));
+            return Ok(super::colors::of_spectrum(&samples));
         }
         let color = match self.numbers(file, node, &value)?[..] {
             [all] => Vec3::splat(all as f32),

@@ -264,10 +264,17 @@ impl Reader<'_> {
             }
             "NamedMaterial" => {
                 let material = quoted(lexer, name)?;
-                let known = self.materials.get(&material).cloned();
-                self.state.material = known.ok_or_else(|| {
-                    lexer.error(line, format!("there is no material `{material}`"))
-                })?;
+                self.state.material = match self.materials.get(&material) {
+                    Some(known) => known.clone(),
+                    None => {
+                        self.leave_out(
+                            lexer,
+                            line,
+                            &format!("the material `{material}`, which is not there yet"),
+                        );
+                        Material::default()
+                    }
+                };
             }
             "Texture" => {
                 let called = quoted(lexer, name)?;
@@ -278,7 +285,7 @@ impl Reader<'_> {
                 self.textures.insert(called, texture);
             }
             "Sampler" | "Integrator" | "PixelFilter" | "ColorSpace" | "Accelerator"
-            | "SurfaceIntegrator" | "Renderer" => {
+            | "SurfaceIntegrator" | "VolumeIntegrator" | "Renderer" => {
                 quoted(lexer, name)?;
                 Params::read(lexer, line)?;
             }

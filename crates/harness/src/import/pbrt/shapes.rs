@@ -175,6 +175,17 @@ impl Reader<'_> {
             }
             "trianglemesh" => written(lexer, params, 3)?,
             "bilinearmesh" => written(lexer, params, 4)?,
+            "loopsubdiv" => {
+                self.leave_out(
+                    lexer,
+                    line,
+                    "the subdivision of a `loopsubdiv`; its control mesh stands for it",
+                );
+                match written(lexer, params, 3)? {
+                    Form::Mesh { mesh, .. } => Form::Mesh { mesh, flat: false },
+                    other => other,
+                }
+            }
             "plymesh" => {
                 let Some(file) = params.word("filename") else {
                     let hint = params.nearest("filename");

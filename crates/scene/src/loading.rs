@@ -5,8 +5,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::model::PictureSource;
-use crate::picture::Picture;
+use crate::picture::{Picture, PictureSource};
 use crate::texture::Texture;
 
 /// Most triangles of a scene, in all objects and mesh mirrors with their copies: 1.7 GB while they are

@@ -6,11 +6,20 @@
 //! looked at, transparency is dropped.
 
 use std::io::Cursor;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use image::ImageFormat;
 
 use crate::texture::{Samples, Texture};
+
+/// Where a picture is to be had.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PictureSource {
+    /// A file.
+    File(PathBuf),
+    /// A PNG or JPEG inside the model's file.
+    Bytes(Vec<u8>),
+}
 
 /// A picture file as it lies on disk, of a kind that can be decoded.
 pub(crate) struct Picture {

@@ -5,8 +5,6 @@ use clap_complete::Shell;
 use crate::exit::Outcome;
 use crate::show::print;
 
-use super::unused;
-
 /// What `completions` is asked.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Args {
@@ -15,10 +13,10 @@ pub struct Args {
     pub shell: Shell,
 }
 
-/// Writes a script that the shell reads: each command with the options that it uses.
-pub fn run(args: &Args) -> anyhow::Result<Outcome> {
+/// Writes a script that the shell reads.
+pub fn run(args: &Args, mut command: clap::Command) -> anyhow::Result<Outcome> {
     let mut script = Vec::new();
-    clap_complete::generate(args.shell, &mut unused::command(), "catoptric", &mut script);
+    clap_complete::generate(args.shell, &mut command, "catoptric", &mut script);
     print::text(&String::from_utf8_lossy(&script))?;
     Ok(Outcome::Done)
 }

@@ -3,7 +3,7 @@
 use catoptric_scene::Fov;
 use glam::{DMat4, DVec3};
 
-use super::{Form, Thing, View};
+use super::found::{Form, Thing, View};
 
 /// Which angle a number is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

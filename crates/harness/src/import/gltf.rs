@@ -4,7 +4,8 @@ use std::path::Path;
 
 use catoptric_scene::{Fov, model};
 
-use super::{Choice, Coat, Form, Found, Thing, View, colors};
+use super::colors;
+use super::found::{Choice, Coat, Form, Found, Thing, View};
 
 /// How far away the target of a camera is that only has a direction.
 const AHEAD: f64 = 1.0;

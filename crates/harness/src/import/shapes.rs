@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use catoptric_scene::model::Triangles;
 use glam::{DMat3, DMat4, DVec3, Vec2};
 
-use super::Form;
+use super::found::Form;
 
 /// Segments around a sphere or disk that becomes triangles.
 pub const SEGMENTS: u32 = 128;

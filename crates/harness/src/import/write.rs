@@ -13,8 +13,9 @@ use glam::{DMat4, Vec3};
 use crate::exit::bad_input;
 use crate::export::ply::Ply;
 
+use super::found::{Coat, Form, Found, Thing};
 use super::toml::{color, number, quoted, vector};
-use super::{Coat, Form, Found, Thing, cameras, shapes};
+use super::{cameras, shapes};
 
 /// The scene file.
 pub const SCENE_FILE: &str = "scene.toml";

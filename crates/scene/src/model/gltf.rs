@@ -10,9 +10,10 @@ use gltf::json::mesh::{Mode, Semantic};
 use gltf::json::validation::Checked;
 
 use super::accessors::{Numbers, Resource, Source, resource};
-use super::{Model, ModelCamera, Part, PictureSource, Surface, Triangles};
+use super::parts::{Model, ModelCamera, Part, Surface, Triangles};
 use crate::SceneError;
 use crate::loading::Loading;
+use crate::picture::PictureSource;
 use crate::text::at_line;
 
 /// Extensions that change nothing that is taken over, or that are understood.

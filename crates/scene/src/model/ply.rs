@@ -11,7 +11,7 @@ use glam::{DVec3, Vec2, Vec3};
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{Header, Property, PropertyAccess, PropertyAccessResult};
 
-use super::Triangles;
+use super::parts::Triangles;
 use crate::SceneError;
 use crate::loading::Loading;
 use crate::obj::Triangulator;

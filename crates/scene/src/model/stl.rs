@@ -5,7 +5,7 @@ use std::path::Path;
 
 use glam::{DVec3, Vec3};
 
-use super::Triangles;
+use super::parts::Triangles;
 use crate::SceneError;
 use crate::loading::Loading;
 use crate::text::at_line;

@@ -8,8 +8,9 @@ use glam::{DMat4, DVec3, Vec2, Vec3};
 use roxmltree::Node;
 
 use super::nodes::{File, child, children, name_of};
-use super::{DEEPEST, Reader};
-use crate::import::{Coat, colors};
+use super::reader::{DEEPEST, GRAY, Reader, turn_v};
+use crate::import::colors;
+use crate::import::found::Coat;
 
 /// What a shape is made of.
 #[derive(Default)]
@@ -54,7 +55,7 @@ impl Laid {
         }
         if matches!(self.coat, Coat::Picture { .. } | Coat::Texels { .. }) {
             // Mitsuba's pictures begin at the top, ours at the bottom.
-            super::turn_v(mesh);
+            turn_v(mesh);
         }
         self.coat
     }
@@ -69,7 +70,7 @@ impl Laid {
 fn mean(coat: &Coat) -> Vec3 {
     match coat {
         Coat::Color(color) | Coat::Picture { tint: color, .. } => *color,
-        Coat::Vertex => super::GRAY,
+        Coat::Vertex => GRAY,
         Coat::Checker { a, b, .. } => (*a + *b) / 2.0,
         Coat::Texels { texels, .. } => {
             texels.iter().copied().sum::<Vec3>() / texels.len().max(1) as f32

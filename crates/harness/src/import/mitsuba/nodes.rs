@@ -70,7 +70,7 @@ pub fn read_all(path: &Path) -> anyhow::Result<Vec<Text>> {
             }
             for node in root.children().filter(|node| node.has_tag_name("include")) {
                 let name = attribute(node, "filename").unwrap_or_default();
-                let name = super::substituted(&name, &defaults);
+                let name = substituted(&name, &defaults);
                 let folder = path.parent().unwrap_or(Path::new(""));
                 let found = [main, folder].map(|folder| folder.join(&name));
                 let found = found.into_iter().find(|path| path.is_file());
@@ -242,4 +242,16 @@ pub fn child<'a, 'i>(of: Node<'a, 'i>, name: &str) -> Option<Node<'a, 'i>> {
         let known = child.attribute("name");
         known.is_some_and(|known| known == name || normalized(known) == name)
     })
+}
+
+/// A text with `$names` replaced by their values.
+pub fn substituted(text: &str, defaults: &HashMap<String, String>) -> String {
+    let mut names: Vec<&String> = defaults.keys().collect();
+    // The longest first: `$a` must not be taken out of `$ab`.
+    names.sort_by_key(|name| std::cmp::Reverse(name.len()));
+    let mut text = text.to_owned();
+    for name in names {
+        text = text.replace(&format!("${name}"), &defaults[name]);
+    }
+    text
 }

@@ -6,20 +6,24 @@
 mod lexer;
 mod materials;
 mod params;
+mod reader;
 mod shapes;
+mod surface;
 
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use catoptric_scene::{Background, SceneError};
 use glam::{DMat4, DVec3};
 
 use super::cameras::{self, Axis, looking_along_z};
-use super::{Choice, Found, Thing, View, colors};
+use super::colors;
+use super::found::{Choice, Found, Thing, View};
 
 use self::lexer::{Lexer, Word};
-use self::materials::{Material, Texture};
 use self::params::Params;
+use self::reader::{Reader, State, beside};
+use self::surface::Material;
 
 /// Deepest nesting of files and of states.
 const DEEPEST: usize = 4096;
@@ -29,37 +33,6 @@ const DEEPEST_FILES: usize = 32;
 const LARGEST: u64 = 1 << 30;
 /// Most instances of objects.
 const MOST_INSTANCES: usize = 100_000;
-
-/// What directives change and blocks restore.
-#[derive(Clone)]
-struct State {
-    /// World from the current space.
-    matrix: DMat4,
-    material: Material,
-    /// Of an area light: its colour.
-    light: Option<glam::Vec3>,
-    reversed: bool,
-}
-
-struct Reader<'r> {
-    choice: &'r Choice,
-    found: Found,
-    state: State,
-    kept: Vec<State>,
-    named_spaces: HashMap<String, DMat4>,
-    materials: HashMap<String, Material>,
-    textures: HashMap<String, Texture>,
-    /// Shapes of objects that are shown by their instances, in the space of the object.
-    objects: HashMap<String, Vec<Thing>>,
-    /// The object that is being described.
-    within: Option<(String, DMat4)>,
-    in_world: bool,
-    instances: usize,
-    shapes: usize,
-    files: usize,
-    size: [f64; 2],
-    camera: Option<(View, f64, Axis, usize)>,
-}
 
 /// Reads a file and those that it includes.
 pub fn read(path: &Path, choice: &Choice) -> anyhow::Result<Found> {
@@ -124,13 +97,6 @@ impl Reader<'_> {
         }
         self.files -= 1;
         Ok(())
-    }
-
-    fn leave_out(&mut self, lexer: &Lexer, line: usize, what: &str) {
-        let file = lexer.path.file_name().unwrap_or_default().to_string_lossy();
-        self.found
-            .left_out
-            .push(format!("{what} of {file}, line {line}"));
     }
 
     fn directive(&mut self, lexer: &mut Lexer, name: &str, line: usize) -> anyhow::Result<()> {
@@ -426,14 +392,6 @@ impl Reader<'_> {
         }
         Ok(())
     }
-
-    /// Adds a thing to the scene, or to the object that is being described.
-    fn add(&mut self, thing: Thing) {
-        match &self.within {
-            Some((object, _)) => self.objects.entry(object.clone()).or_default().push(thing),
-            None => self.found.things.push(thing),
-        }
-    }
 }
 
 fn shown(word: &Word) -> String {
@@ -481,9 +439,4 @@ fn quoted(lexer: &mut Lexer, of: &str) -> anyhow::Result<String> {
         )),
         None => Err(lexer.error(line, format!("{of} wants a name in quotation marks"))),
     }
-}
-
-/// A file that another one names.
-fn beside(lexer: &Lexer, name: &str) -> PathBuf {
-    lexer.path.parent().unwrap_or(Path::new("")).join(name)
 }

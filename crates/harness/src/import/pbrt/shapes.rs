@@ -4,10 +4,11 @@ use catoptric_scene::model::{self, Triangles};
 use glam::{DMat3, DMat4, DVec3, Vec2};
 
 use super::lexer::Lexer;
-use super::materials::Texture;
 use super::params::Params;
-use super::{Reader, beside};
-use crate::import::{Coat, Form, Thing, colors, shapes};
+use super::reader::{Reader, beside};
+use super::surface::Texture;
+use crate::import::found::{Coat, Form, Thing};
+use crate::import::{colors, shapes};
 
 /// Most triangles of all things together.
 const MOST_TRIANGLES: usize = 4_000_000;

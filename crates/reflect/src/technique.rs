@@ -52,6 +52,7 @@ impl Family {
             Self::Search => "finds reflection points of vertices; alone or with a refinement",
             Self::Refinement => "chooses the points to search, as in `linear+full(level=3)`",
             Self::ImageOrder => "finds what each mirror pixel's ray meets; stands alone",
+            Self::Motion => "finds where each mirror pixel's reflection was a frame before; alone",
         }
     }
 }

@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 
 use catoptric_frame::{Triangles, Work};
 use catoptric_metrics::{
-    ColorError, Coverage, Mismatch, More, MotionError, NonFinite, PairedDifference, Regions, Summary,
-    Temporal, Timing, VertexReport,
+    ColorError, Coverage, Mismatch, More, MotionError, NonFinite, PairedDifference, Regions,
+    Summary, Temporal, Timing, VertexReport,
 };
 use schemars::JsonSchema;
 use serde::ser::SerializeMap;

@@ -2,7 +2,7 @@
 
 use anyhow::Context;
 use askama::Template;
-use catoptric_frame::{Frame, Image, write_png, write_png_rgb8};
+use catoptric_frame::{Frame, Image, write_png, write_png_rgb8, write_whole};
 use catoptric_metrics::{Colormap, MapKind, colorize, error_map};
 use serde_json::Value;
 
@@ -10,6 +10,8 @@ use crate::output::{Draft, PICTURES};
 use crate::record::path::leaves;
 
 use super::facts::{self, Fact};
+use super::layers::{self, Extent};
+use super::look;
 use super::pictures::{self, Names};
 use super::table::cell;
 
@@ -29,6 +31,7 @@ struct Page {
     scale: &'static str,
     angle_labels: &'static [&'static str],
     coverage: Vec<Fact>,
+    look: String,
 }
 
 /// The page as text; pictures are written into the draft. `result` is what `diff` prints.
@@ -46,6 +49,9 @@ pub fn page(
         angle: name("angle"),
         coverage: name("coverage"),
         levels: None,
+        motion: None,
+        truth_layers: format!("{PICTURES}/reference.layers.js"),
+        layers: format!("{PICTURES}/test.layers.js"),
     };
     write_png(&reference.color, draft.file(&names.reference)?)?;
     write_png(&test.color, draft.file(&names.technique)?)?;
@@ -60,6 +66,10 @@ pub fn page(
             let coverage = pictures::coverage_map(reference, test)?;
             write_png_rgb8(&coverage, draft.file(&names.coverage)?)?;
             write_png_rgb8(&pictures::angle_scale(), draft.file(pictures::SCALE)?)?;
+            let values = layers::reference(reference, Extent::All)?;
+            write_whole(draft.file(&names.truth_layers)?, values.as_bytes())?;
+            let values = layers::technique(reference, test, Extent::All)?;
+            write_whole(draft.file(&names.layers)?, values.as_bytes())?;
             Some(names.clone())
         }
     };
@@ -86,6 +96,7 @@ pub fn page(
         scale: pictures::SCALE,
         angle_labels: &pictures::ANGLE_LABELS,
         coverage: facts::coverage_legend(),
+        look: look::json(),
     };
     page.render()
         .context("filling the template of two pictures")

@@ -53,12 +53,12 @@ pub struct Names {
 
 /// Names of a row's pictures. One folder a scene and size, so that a sweep over sizes keeps all.
 pub fn names(row: &Record) -> Names {
-    let levels = row.triangles.as_ref().map(|all| all.by_level.len());
+    let all = names_of(&row.scene, &row.technique, row.resolution);
+    let splits = row.triangles.as_ref().map(|all| all.by_level.len()) > Some(1);
     Names {
-        levels: names_of(&row.scene, &row.technique, row.resolution)
-            .levels
-            .filter(|_| levels > Some(1)),
-        ..names_of(&row.scene, &row.technique, row.resolution)
+        levels: all.levels.filter(|_| splits),
+        motion: all.motion.filter(|_| row.motion.is_some()),
+        ..all
     }
 }
 
@@ -66,6 +66,7 @@ pub fn names(row: &Record) -> Names {
 pub fn names_of(scene: &str, technique: &str, [width, height]: [u32; 2]) -> Names {
     let folder = format!("{FOLDER}/{}-{width}x{height}", slug(scene));
     let technique = slug(technique);
+    let motion = ["fetched", "motion"].map(|kind| format!("{folder}/{technique}.{kind}.png"));
     Names {
         levels: Some(format!("{folder}/{technique}.levels.png")),
         reference: format!("{folder}/reference.png"),
@@ -73,10 +74,7 @@ pub fn names_of(scene: &str, technique: &str, [width, height]: [u32; 2]) -> Name
         technique: format!("{folder}/{technique}.png"),
         angle: format!("{folder}/{technique}.angle.png"),
         coverage: format!("{folder}/{technique}.coverage.png"),
-        motion: row
-            .motion
-            .as_ref()
-            .map(|_| ["fetched", "motion"].map(|kind| format!("{folder}/{technique}.{kind}.png"))),
+        motion: Some(motion),
         truth_layers: format!("{folder}/reference.layers.js"),
         layers: format!("{folder}/{technique}.layers.js"),
     }

@@ -17,6 +17,7 @@ use crate::record::metrics;
 use crate::record::path::lookup;
 
 use super::facts::{self, Fact};
+use super::look;
 use super::number::significant;
 use super::pictures::{self, Names, slug};
 use super::table::{Table, cell, markdown, markdown_code};
@@ -116,6 +117,7 @@ struct Page<'r> {
     coverage: Vec<Fact>,
     sources: Vec<Fact>,
     pictured: bool,
+    look: String,
 }
 
 /// What the runs differ in.
@@ -247,6 +249,7 @@ pub fn page(content: &Content<'_>, draft: &Draft) -> anyhow::Result<String> {
         coverage: facts::coverage_legend(),
         sources: sources(content),
         pictured,
+        look: look::json(),
     };
     page.render().context("filling the template of runs")
 }
@@ -362,6 +365,13 @@ fn copy(row: &Value, from: &Path, into: &str, draft: &Draft) -> anyhow::Result<O
         Some(levels) => one(levels)?,
         None => None,
     };
+    let motion = match &names.motion {
+        Some([fetched, error]) => one(fetched)?.zip(one(error)?).map(<[String; 2]>::from),
+        None => None,
+    };
+    // A page whose values are gone says so.
+    let [truth_layers, layers] = [&names.truth_layers, &names.layers]
+        .map(|name| one(name).map(|copied| copied.unwrap_or_else(|| name.clone())));
     Ok(Some(Pictures {
         names: Names {
             full: reference.clone(),
@@ -370,6 +380,9 @@ fn copy(row: &Value, from: &Path, into: &str, draft: &Draft) -> anyhow::Result<O
             angle,
             coverage,
             levels,
+            motion,
+            truth_layers: truth_layers?,
+            layers: layers?,
         },
         wide,
         high,

@@ -325,6 +325,7 @@ mod tests {
             tessellation: 64,
             cubemaps: Vec::new(),
             proxies: Vec::new(),
+            pose: catoptric_scene::Pose::REST,
         }
     }
 

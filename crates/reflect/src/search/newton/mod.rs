@@ -2,17 +2,35 @@
 //! is 0 at a reflection point, and its derivatives follow from those of position and normal.
 //! Sub-pixel answers from the same buffers that the published searches read.
 
-use super::start::{FromStart, Start};
+mod tiles;
+
+use super::start::{self, FromStart};
 use super::{Context, Recipe, Search};
 use crate::error::ReflectError;
-use crate::options::options;
+use crate::options::{options, words};
 use crate::technique::{Info, Named, Properties};
+use tiles::FromTiles;
+
+words! {
+    /// Where the iteration starts.
+    pub(crate) enum Start {
+        /// At the best of a coarse sample of the mirror.
+        Tile = "tile",
+        /// The mirror's projected middle.
+        Center = "center",
+        /// Its projected bounding box's.
+        Bounds = "bounds",
+        /// The vertex's answer in the previous frame, where there is one; else as for `tile`.
+        Previous = "previous",
+    }
+}
 
 options! {
     /// The search, as its options describe it.
     pub(crate) struct Newton {
-        /// where the iteration starts: the mirror's projected centre, its projected bounding box's,
-        /// or the previous frame's answer
+        /// where the iteration starts: the best of nine places spread over the mirror (then the next best,
+        /// where it leads nowhere), the mirror's projected centre, its projected bounding box's, or the
+        /// previous frame's answer
         start: Start,
     }
 }
@@ -34,8 +52,17 @@ impl Recipe for Newton {
     }
 
     fn make(&self, context: &Context<'_>) -> Result<Box<dyn Search>, ReflectError> {
-        let features = context.extends.then_some("extend");
-        let search = FromStart::new(context, self.start, "newton", features.as_slice())?;
-        Ok(Box::new(search))
+        let from = match self.start {
+            Start::Tile | Start::Previous => None,
+            Start::Center => Some(start::Start::Center),
+            Start::Bounds => Some(start::Start::Bounds),
+        };
+        let features = [(context.extends, "extend"), (from.is_none(), "tiles")];
+        let features = features.into_iter().filter(|(on, _)| *on);
+        let features: Vec<_> = features.map(|(_, name)| name).collect();
+        Ok(match from {
+            None => Box::new(FromTiles::new(context, "newton", &features)?),
+            Some(from) => Box::new(FromStart::new(context, from, "newton", &features)?),
+        })
     }
 }

@@ -64,6 +64,16 @@ words! {
 }
 
 words! {
+    /// What a pixel inside a virtual triangle shows.
+    pub(crate) enum Fragments {
+        /// What the rasterizer interpolates between the corners.
+        Interpolated = "interpolated",
+        /// What the pixel's reflected ray meets of the triangle itself.
+        Exact = "exact",
+    }
+}
+
+words! {
     /// What is drawn of the virtual triangles.
     pub(crate) enum Show {
         Shaded = "shaded",
@@ -84,6 +94,9 @@ options! {
         /// searches walk on each mirror's whole maps, as if nothing stood before it, or on maps
         /// cut by the objects and mirrors before it
         occluders: Occluders,
+        /// what a pixel shows of a virtual triangle: what lies between the corners' reflections, or what the
+        /// pixel's own reflected ray meets of the triangle, tried a little beyond its image too
+        fragments: Fragments,
         /// the reflected surfaces, those with the edges of the virtual triangles, or how often each
         /// was split
         show: Show,

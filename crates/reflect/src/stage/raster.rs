@@ -3,7 +3,7 @@
 use crate::error::ReflectError;
 use crate::gpu::{Begin, Gpu, RasterTargets, Recorder, Slot, layout, module, raster, view};
 use crate::stage::Stage;
-use crate::stage::options::{Depth, Hidden, SearchOptions, Show};
+use crate::stage::options::{Depth, Fragments, Hidden, SearchOptions, Show};
 use crate::stage::variant::Variant;
 
 /// The pass `virtual`.
@@ -12,12 +12,14 @@ pub(crate) struct Raster {
     pub own_layout: wgpu::BindGroupLayout,
     color: wgpu::RenderPipeline,
     layers: wgpu::RenderPipeline,
+    /// Corners drawn of a triangle.
+    corners: u32,
 }
 
 impl Raster {
     /// `program` has the entries `vertex`, `color` and `layers`, knows the features
-    /// `virtual_depth`, `extend`, `wireframe`, `levels` and those given, and reads `slots` as group
-    /// 3.
+    /// `virtual_depth`, `extend`, `exact`, `wireframe`, `levels` and those given, and reads `slots` as
+    /// group 3.
     pub(crate) fn new(
         gpu: &Gpu,
         options: SearchOptions,
@@ -29,6 +31,7 @@ impl Raster {
         let of_options = [
             (options.depth == Depth::Virtual, "virtual_depth"),
             (options.hidden == Hidden::Extend, "extend"),
+            (options.fragments == Fragments::Exact, "exact"),
             (options.show == Show::Wireframe, "wireframe"),
             (options.show == Show::Levels, "levels"),
         ];
@@ -55,7 +58,16 @@ impl Raster {
             color: pipeline("color", 1),
             layers: pipeline("layers", 2),
             own_layout,
+            corners: match options.fragments {
+                Fragments::Interpolated => 3,
+                Fragments::Exact => 6,
+            },
         })
+    }
+
+    /// The vertices to draw for so many triangles.
+    pub(crate) fn vertices(&self, triangles: u32) -> std::ops::Range<u32> {
+        0..self.corners * triangles
     }
 
     /// Records an empty frame of reflections.

@@ -360,7 +360,7 @@ impl Refine for Interpolation {
         let found = &on_sheet.draw;
         self.raster
             .record(frame, stage, sheet.mirror, found, variant, |pass| {
-                pass.draw(0..world.corners, 0..1);
+                pass.draw(self.raster.vertices(world.corners / 3), 0..1);
             });
     }
 

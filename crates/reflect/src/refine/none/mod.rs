@@ -58,7 +58,7 @@ impl Refine for AsItIs {
         let found = &self.found[sheet.index];
         self.raster
             .record(frame, stage, sheet.mirror, found, variant, |pass| {
-                pass.draw(0..stage.world.corners, 0..1);
+                pass.draw(self.raster.vertices(stage.world.corners / 3), 0..1);
             });
     }
 

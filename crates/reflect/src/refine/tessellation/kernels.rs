@@ -4,6 +4,7 @@ use super::rule::Rule;
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, Kernel, Slot, compute, group, layout, module};
 use crate::refine::Context;
+use crate::stage::options::Fragments;
 
 /// A kernel of the loop and the layout of its group 3.
 pub(super) struct Step {
@@ -42,7 +43,11 @@ impl Kernels {
     pub(super) fn new(context: &Context<'_>, rule: Rule) -> Result<Self, ReflectError> {
         use Slot::{Read, Uniform, Write};
         let Context { gpu, stage, .. } = context;
-        let program = |features: &[&str]| module(gpu, "tessellation/kernels", features);
+        let exact = (context.drawn.fragments == Fragments::Exact).then_some("exact");
+        let program = |features: &[&str]| {
+            let features: Vec<_> = features.iter().copied().chain(exact).collect();
+            module(gpu, "tessellation/kernels", &features)
+        };
         let plain = program(&[])?;
         let judging = match rule.threshold {
             None => &program(&["full"])?,

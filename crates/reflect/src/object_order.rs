@@ -111,6 +111,10 @@ impl Technique for ObjectOrder {
         self.stage.finish(frame);
     }
 
+    fn outgrown(&mut self, gpu: &Gpu) -> Result<bool, ReflectError> {
+        self.refine.outgrown(gpu, &self.stage)
+    }
+
     fn carries_over(&self) -> bool {
         self.properties.carries_over
     }

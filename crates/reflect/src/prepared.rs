@@ -44,12 +44,17 @@ impl<'g> Prepared<'g> {
     /// As when preparing.
     pub fn render(&mut self) -> Result<Output, ReflectError> {
         self.gpu.begin();
-        self.technique.begin_frame(self.gpu)?;
-        self.gpu.run(|frame| {
-            self.technique.record(frame, Variant::AllLayers);
-        });
-        self.gpu.wait();
-        self.gpu.check()?;
+        loop {
+            self.technique.begin_frame(self.gpu)?;
+            self.gpu.run(|frame| {
+                self.technique.record(frame, Variant::AllLayers);
+            });
+            self.gpu.wait();
+            self.gpu.check()?;
+            if !self.technique.outgrown(self.gpu)? {
+                break;
+            }
+        }
         let output = self.technique.output(self.gpu);
         self.gpu.check()?;
         Ok(output)
@@ -61,14 +66,19 @@ impl<'g> Prepared<'g> {
     /// As [`Prepared::render`].
     pub fn time_frame(&mut self) -> Result<FrameTime, ReflectError> {
         self.gpu.begin();
-        let start = Instant::now();
-        let built = self.technique.begin_frame(self.gpu)?;
-        let build_ms = (built == Built::OnTheCpu).then(|| start.elapsed().as_secs_f64() * 1e3);
-        let time = self.timer.time(self.gpu, |frame| {
-            self.technique.record(frame, Variant::Color);
-        });
-        self.gpu.check()?;
-        Ok(FrameTime { build_ms, ..time })
+        loop {
+            let start = Instant::now();
+            let built = self.technique.begin_frame(self.gpu)?;
+            let build_ms = (built == Built::OnTheCpu).then(|| start.elapsed().as_secs_f64() * 1e3);
+            let time = self.timer.time(self.gpu, |frame| {
+                self.technique.record(frame, Variant::Color);
+            });
+            self.gpu.check()?;
+            // A frame that was not drawn whole is no frame.
+            if !self.technique.outgrown(self.gpu)? {
+                return Ok(FrameTime { build_ms, ..time });
+            }
+        }
     }
 
     /// Asks what goes on inside the technique; `None` if there is no such thing in it.

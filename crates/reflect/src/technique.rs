@@ -175,6 +175,15 @@ pub(crate) trait Technique {
     /// Records all passes of a frame.
     fn record(&self, frame: &mut Recorder<'_>, variant: Variant);
 
+    /// Whether the last frame wanted more room than there was. It was not drawn whole then: more room has
+    /// been made, and it is to be rendered anew.
+    ///
+    /// # Errors
+    /// What the device cannot hold.
+    fn outgrown(&mut self, _: &Gpu) -> Result<bool, ReflectError> {
+        Ok(false)
+    }
+
     /// Whether a frame is found more easily after another one.
     fn carries_over(&self) -> bool {
         false

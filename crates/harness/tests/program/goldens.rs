@@ -22,6 +22,8 @@ const GOLDENS: &[(&str, &str)] = &[
     ("spheres", "reflector-cubemap(size=64)"),
     ("sphere-objects-1k", "linear+grid"),
     ("sphere-objects-1k", "newton"),
+    ("sphere-table", "newton+pixel"),
+    ("sphere-square", "newton(fragments=exact)"),
     ("planar", "planar"),
     ("ellipsoid", "ray-trace"),
     ("kitchen", "beams"),

@@ -5,6 +5,7 @@ pub(crate) mod adaptive;
 pub(crate) mod full;
 pub(crate) mod grid;
 pub(crate) mod none;
+pub(crate) mod pixel;
 mod scene_vertices;
 pub(crate) mod tessellation;
 
@@ -52,6 +53,15 @@ pub(crate) trait Refine {
 
     /// Called before each frame is recorded; `warm`: the previous frame's answers help the search.
     fn begin_frame(&mut self, gpu: &Gpu, stage: &Stage, warm: bool);
+
+    /// Whether the last frame wanted more room than there was. It was not drawn whole then: more room has
+    /// been made, and it is to be recorded anew.
+    ///
+    /// # Errors
+    /// What the device cannot hold.
+    fn outgrown(&mut self, _: &Gpu, _: &Stage) -> Result<bool, ReflectError> {
+        Ok(false)
+    }
 
     /// Whether it reads the stage's maps, whatever the search does.
     fn reads_maps(&self) -> bool {

@@ -11,13 +11,13 @@ type Point = (u32, [u32; 3]);
 
 /// The corners and edges of drawn triangles.
 #[derive(Debug, Default)]
-pub(super) struct Edges {
+pub(in crate::refine) struct Edges {
     corners: HashSet<Point>,
     edges: Vec<(u32, [Vec3; 2])>,
 }
 
 /// The object of each triangle of a scene, by index.
-pub(super) fn objects(scene: &Scene) -> Vec<u32> {
+pub(in crate::refine) fn objects(scene: &Scene) -> Vec<u32> {
     let objects = (0..).zip(&scene.objects);
     objects
         .flat_map(|(index, object)| object.mesh.triangles.iter().map(move |_| index))
@@ -30,7 +30,7 @@ fn point(object: u32, position: Vec3) -> Point {
 
 impl Edges {
     /// Takes a triangle in.
-    pub(super) fn add(&mut self, object: u32, corners: [Vec3; 3]) {
+    pub(in crate::refine) fn add(&mut self, object: u32, corners: [Vec3; 3]) {
         let [a, b, c] = corners;
         self.corners
             .extend(corners.map(|corner| point(object, corner)));
@@ -40,7 +40,7 @@ impl Edges {
 
     /// Number of corners inside an edge; an edge may have been split `depth` times on its other
     /// side.
-    pub(super) fn t_junctions(&self, depth: u32) -> u64 {
+    pub(in crate::refine) fn t_junctions(&self, depth: u32) -> u64 {
         let mut found = HashSet::new();
         for (object, edge) in &self.edges {
             self.inside(*object, *edge, depth, &mut found);

@@ -8,7 +8,7 @@
 //! depend on the order in which threads run.
 
 mod buffers;
-mod junctions;
+pub(super) mod junctions;
 mod kernels;
 mod passes;
 mod plan;
@@ -33,7 +33,7 @@ use crate::stage::variant::Variant;
 use passes::Passes;
 pub(crate) use plan::DEEPEST;
 use plan::Plan;
-use records::Piece;
+pub(super) use records::Piece;
 pub(crate) use rule::Rule;
 
 /// A finished triangle, on the CPU.
@@ -51,7 +51,7 @@ pub(crate) struct Leaf {
 }
 
 /// Triangles at most among which T-junctions are looked for: they are made and read once more.
-const MOST_COUNTED: u64 = 1 << 18;
+pub(super) const MOST_COUNTED: u64 = 1 << 18;
 
 /// A refinement by a [`Rule`].
 pub(crate) struct Tessellation {

@@ -3,6 +3,7 @@
 pub const FULL_ANGLE: &str = "against_full.angular_error_deg.p50";
 pub const FULL_AGREEMENT: &str = "against_full.object_agreement";
 pub const ANGLE: &str = "angular_error_deg.p50";
+pub const ANGLE_P99: &str = "angular_error_deg.p99";
 pub const FLIP: &str = "color.flip";
 pub const CRACK_PIXELS: &str = "coverage.crack_pixels";
 pub const EXTRA: &str = "coverage.extra";

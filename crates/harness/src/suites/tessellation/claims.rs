@@ -10,7 +10,7 @@ use crate::suites::paths::{
     REFINE_MS, SEARCHED, STILL_MS, UNFINISHED, WIDEST,
 };
 
-use super::data::{ADAPTIVE, FULL, NONE};
+use super::data::{ADAPTIVE, FULL, NONE, PIXEL};
 use super::labels::FOUR;
 use super::labels::{
     COARSE, ELLIPSOID, FINE, HIERARCHY_ADAPTIVE, HIERARCHY_FULL, LARGE_MIRROR, MOTION,
@@ -310,6 +310,21 @@ pub const CRACK: &[Claim] = &[
         "the widest crack at a threshold of 0.0001 less the widest at any: at least a pixel narrower.",
     ),
 ];
+
+/// Error against triangles.
+pub const PIXELS: &[Claim] = &[claim(
+    Paper::Ours,
+    "",
+    "Split by pixels, edge by edge, the surface has no T-junction.",
+    value(
+        of(Which::Named(PIXEL), Place::Most),
+        Term::Path(JUNCTIONS),
+        Limit::Between(0.0, 0.0),
+        Noise::Exact,
+        Shown::In("T-junctions"),
+    ),
+    COUNTED,
+)];
 
 /// CESCG Fig. 7.
 pub const TABLE: &[Claim] = &[

@@ -27,6 +27,8 @@ pub const MESH: &str = "adaptive, mirror as a mesh";
 pub const NONE: &str = "none";
 pub const FULL: &str = "full";
 pub const ADAPTIVE: &str = "adaptive";
+pub const PIXEL: &str = "by pixels";
+pub const EXACT: &str = "by pixels, exact fragments";
 
 pub fn full(level: u32) -> String {
     format!("linear+full(level={level})")
@@ -34,6 +36,11 @@ pub fn full(level: u32) -> String {
 
 pub fn adaptive(level: u32, threshold: &str) -> String {
     format!("linear+adaptive(level={level},threshold={threshold})")
+}
+
+/// By pixels, with a search that answers between them.
+pub fn pixel(error: &str) -> String {
+    format!("newton(hidden=extend)+pixel(error={error})")
 }
 
 /// Adaptive on the published maps: what the rasterizer interpolates between a mesh's corners.

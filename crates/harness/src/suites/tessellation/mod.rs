@@ -12,6 +12,7 @@ mod facets;
 mod geometry;
 mod labels;
 mod more;
+mod pixels;
 mod square;
 mod table;
 
@@ -50,6 +51,10 @@ fn figures(asked: &Asked<'_>) -> Vec<Figure> {
         table::counts(&table),
         facets::facets(scene.unwrap_or(FACETS)),
     ];
+    figures.push(pixels::curve("pixels", square, claims::PIXELS));
+    if scene.is_none() {
+        figures.push(pixels::curve("pixels-table", data::TABLE, &[]));
+    }
     figures.extend(more::figures(scene));
     figures
 }

@@ -13,7 +13,11 @@ pub(super) struct Step {
 
 impl Step {
     /// Its group 3.
-    pub(super) fn group(&self, gpu: &Gpu, buffers: &[wgpu::BindingResource<'_>]) -> wgpu::BindGroup {
+    pub(super) fn group(
+        &self,
+        gpu: &Gpu,
+        buffers: &[wgpu::BindingResource<'_>],
+    ) -> wgpu::BindGroup {
         group(gpu, &self.own_layout, buffers)
     }
 }
@@ -42,17 +46,20 @@ pub(super) struct Kernels {
 impl Kernels {
     pub(super) fn new(context: &Context<'_>) -> Result<Self, ReflectError> {
         use Slot::{Read, Uniform, Write};
-        let Context { gpu, stage, drawn, .. } = context;
+        let Context {
+            gpu, stage, drawn, ..
+        } = context;
         let of_options = [
             (drawn.hidden == Hidden::Extend, "extend"),
             (drawn.depth == Depth::Virtual, "virtual_depth"),
             (drawn.fragments == Fragments::Exact, "exact"),
         ];
-        let of_options = of_options.iter().filter_map(|(on, name)| on.then_some(*name));
+        let of_options = of_options
+            .iter()
+            .filter_map(|(on, name)| on.then_some(*name));
         let of_options: Vec<_> = of_options.collect();
-        let program = |feature: &[&str]| {
-            module(gpu, "pixel/kernels", &[&of_options, feature].concat())
-        };
+        let program =
+            |feature: &[&str]| module(gpu, "pixel/kernels", &[&of_options, feature].concat());
         let geometry = layout(gpu, "refined", &[Write; 3]);
         let kernel = |module, entry, slots: &[Slot]| {
             let own_layout = layout(gpu, entry, slots);

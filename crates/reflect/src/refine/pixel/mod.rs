@@ -158,7 +158,10 @@ impl Refine for ByPixels {
         let count = sheets.map(|sheet| {
             let mut edges = junctions::Edges::default();
             for (source, corners) in self.passes.drawn(gpu, stage, search, *sheet) {
-                edges.add(objects[source as usize], corners.map(|corner| corner.position));
+                edges.add(
+                    objects[source as usize],
+                    corners.map(|corner| corner.position),
+                );
             }
             edges.t_junctions(self.options.level)
         });

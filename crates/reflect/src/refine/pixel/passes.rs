@@ -31,7 +31,10 @@ const DRAW: u64 = 32;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corner {
     pub position: Vec3,
-    #[cfg_attr(not(test), expect(dead_code, reason = "tests compare drawn edges by it"))]
+    #[cfg_attr(
+        not(test),
+        expect(dead_code, reason = "tests compare drawn edges by it")
+    )]
     pub found: Found,
 }
 
@@ -185,7 +188,11 @@ impl Parts {
         Sized {
             room,
             settings,
-            geometry: group(gpu, &kernels.geometry, &whole(&[&positions, &points.found, &edges])),
+            geometry: group(
+                gpu,
+                &kernels.geometry,
+                &whole(&[&positions, &points.found, &edges]),
+            ),
             adopt: adopt.collect(),
             begin: kernels.begin.group(gpu, &begin),
             first: [counted(0, &working[0]), scanned(0), written(0)],
@@ -215,7 +222,14 @@ impl Passes {
         let parts = Parts {
             options,
             kernels: Kernels::new(context)?,
-            raster: Raster::new(gpu, context.drawn, stage, "stage/virtual", &features, &slots)?,
+            raster: Raster::new(
+                gpu,
+                context.drawn,
+                stage,
+                "stage/virtual",
+                &features,
+                &slots,
+            )?,
             points_layout: context.points_layout.clone(),
             scene_positions: stage.world.positions.clone(),
             scene_edges: storage(gpu, &topology.edges),

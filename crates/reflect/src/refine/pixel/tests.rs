@@ -57,7 +57,11 @@ fn no_crack_opens_from_twenty_places() {
     let mut published = 0;
     for place in 0..20 {
         let turn = f64::from(place);
-        let aside = DVec3::new(turn.sin(), 0.6 * (1.7 * turn).cos(), 0.4 * (0.9 * turn).sin());
+        let aside = DVec3::new(
+            turn.sin(),
+            0.6 * (1.7 * turn).cos(),
+            0.4 * (0.9 * turn).sin(),
+        );
         scene.camera.eye = eye + 0.12 * (eye - target).length() * aside;
         let drawn = output(&gpu, &scene, "newton+pixel");
         assert_eq!(drawn.t_junctions, Some(0), "place {place}");
@@ -132,7 +136,10 @@ fn distance_to(line: &[Vec2], point: Vec2) -> f32 {
 /// How far drawn edges are from their true curves, both ways, in pixels: the largest of each.
 fn deviations(gpu: &Gpu, made: &Made) -> Vec<f32> {
     const PARTS: usize = 8;
-    let sides = made.corners.iter().flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]);
+    let sides = made
+        .corners
+        .iter()
+        .flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]);
     let seen = |corner: &passes::Corner| corner.found.state == Found::FOUND;
     let sides = sides.filter(|side| side.iter().all(|corner| seen(corner)));
     let sides: Vec<_> = sides.collect();
@@ -234,6 +241,10 @@ fn a_limit_that_is_reached_is_counted() {
     for (level, limited) in [(1, true), (8, false)] {
         let technique = format!("newton+pixel(level={level})");
         let triangles = output(&gpu, &scene, &technique).triangles.expect("counted");
-        assert_eq!(triangles.unfinished > 0, limited, "{technique}: {triangles:?}");
+        assert_eq!(
+            triangles.unfinished > 0,
+            limited,
+            "{technique}: {triangles:?}"
+        );
     }
 }

@@ -23,7 +23,11 @@ pub(super) struct Topology {
 impl Topology {
     pub(super) fn new(scene: &Scene) -> Self {
         let geometry = Geometry::new(scene);
-        let corners: Vec<u32> = geometry.corners.iter().map(|corner| corner.vertex).collect();
+        let corners: Vec<u32> = geometry
+            .corners
+            .iter()
+            .map(|corner| corner.vertex)
+            .collect();
         Self::of(geometry.positions.len() as u32, &corners)
     }
 

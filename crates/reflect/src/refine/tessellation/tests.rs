@@ -254,7 +254,12 @@ fn every_search_goes_with_every_refinement() {
     let Some(gpu) = gpu_or_skip() else { return };
     let scene = scene("sphere-square-hidden");
     for search in ["linear", "ray-hierarchy", "reflector-cubemap", "newton"] {
-        for refinement in ["full(level=2)", "adaptive(level=2)", "grid", "pixel(level=3)"] {
+        for refinement in [
+            "full(level=2)",
+            "adaptive(level=2)",
+            "grid",
+            "pixel(level=3)",
+        ] {
             let spec = parse(&format!("{search}+{refinement}")).expect("a technique");
             let prepared = prepare(&gpu, &spec, &scene, [40, 30]);
             let output = prepared.expect("fits the device").render();

@@ -47,7 +47,10 @@ impl FromTiles {
             Some(&find),
         ];
         let mirrors = stage.world.mirrors.iter().map(|_| {
-            let (bounds, starts) = (storage_zeros(gpu, 16), storage_zeros(gpu, 8 * u64::from(TILES)));
+            let (bounds, starts) = (
+                storage_zeros(gpu, 16),
+                storage_zeros(gpu, 8 * u64::from(TILES)),
+            );
             let found = [bounds.as_entire_binding(), starts.as_entire_binding()];
             Starts {
                 find: group(gpu, &find, &found),

@@ -55,6 +55,9 @@ pub struct TrueVertex {
     /// All reflection points: world position and image coordinates (`None` behind the eye's
     /// plane). Empty unless `class` is `Reflected`.
     pub points: Vec<(DVec3, Option<DVec2>)>,
+    /// By point, how many focal points of its reflected beam lie before the vertex; `None` where that is not
+    /// known.
+    pub focal: Vec<Option<u8>>,
     /// Parts of the mirror of which it could not be decided whether they hold a point.
     pub undecided: u64,
 }

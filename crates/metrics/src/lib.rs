@@ -38,7 +38,8 @@ pub use record::{ColorError, Comparison, Coverage, Mismatch, NonFinite, Region, 
 pub use stats::{PairedDifference, Summary, Timing, paired};
 pub use temporal::{Jitter, Temporal, temporal};
 pub use vertices::{
-    Discard, OffsetShare, SolutionCount, VertexReport, vertex_errors, vertex_report,
+    Discard, FoundCount, OffsetShare, SolutionCount, SolutionsByK, VertexReport, vertex_errors,
+    vertex_report,
 };
 
 use thiserror::Error;

@@ -77,6 +77,50 @@ pub struct SolutionCount {
     /// Answers, stand-ins aside, without a true point within 0.75 px, in view or not; those of vertices
     /// whose truth is not known do not count.
     pub spurious: u64,
+    /// True points by the number k of focal points of the reflected beam before the vertex: 0 the upright
+    /// image, 2 the inverted one, 1 the one between, which is turned over. `None` where k is known of no point.
+    #[serde(default)]
+    pub by_k: Option<SolutionsByK>,
+}
+
+/// True points by the number of focal points before the vertex.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct SolutionsByK {
+    /// Before any.
+    pub k0: FoundCount,
+    /// Between the two.
+    pub k1: FoundCount,
+    /// Behind both.
+    pub k2: FoundCount,
+}
+
+/// How many true points there are and were found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct FoundCount {
+    /// True points in view.
+    #[serde(rename = "true")]
+    pub existing: u64,
+    /// Of those, with an answer within 0.75 px.
+    pub found: u64,
+}
+
+impl SolutionCount {
+    /// One more true point.
+    fn add(&mut self, is_found: bool, focal: Option<u8>) {
+        self.existing += 1;
+        self.found += u64::from(is_found);
+        let Some(k) = focal else { return };
+        let by_k = self.by_k.get_or_insert_default();
+        let of = match k {
+            0 => &mut by_k.k0,
+            1 => &mut by_k.k1,
+            _ => &mut by_k.k2,
+        };
+        of.existing += 1;
+        of.found += u64::from(is_found);
+    }
 }
 
 /// Shares of offsets above a limit.
@@ -130,11 +174,10 @@ pub fn vertex_report(
     let mut offsets = Vec::new();
     for (pair, (group, truth)) in groups.iter().zip(truth).enumerate() {
         let is_in_view = |q: &DVec2| in_view(pair, *q);
-        let in_view: Vec<DVec2> = truth
-            .points
-            .iter()
-            .filter_map(|(_, q)| *q)
-            .filter(is_in_view)
+        let points = truth.points.iter().zip(&truth.focal);
+        let in_view: Vec<(DVec2, Option<u8>)> = points
+            .filter_map(|((_, q), focal)| Some(((*q)?, *focal)))
+            .filter(|(q, _)| is_in_view(q))
             .collect();
         let states = || group.iter().map(|result| result.state);
         if truth.class == VertexClass::Hidden && states().any(|state| state == VertexState::Found) {
@@ -163,8 +206,9 @@ pub fn vertex_report(
         }
 
         let found = found(group);
-        solutions.existing += in_view.len() as u64;
-        solutions.found += in_view.iter().filter(|&&q| is_near(q, &found)).count() as u64;
+        for (q, focal) in &in_view {
+            solutions.add(is_near(*q, &found), *focal);
+        }
         offsets.extend(found.iter().filter_map(|&q| nearest(q, &projected)));
     }
 
@@ -288,12 +332,13 @@ mod tests {
     }
 
     fn truth(class: VertexClass, points: &[[f64; 2]]) -> TrueVertex {
-        let points = points
+        let points: Vec<_> = points
             .iter()
             .map(|&q| (DVec3::ZERO, Some(DVec2::from(q))))
             .collect();
         TrueVertex {
             class,
+            focal: vec![None; points.len()],
             points,
             undecided: 0,
         }

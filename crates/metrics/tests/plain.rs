@@ -523,6 +523,7 @@ fn offsets_and_jitter() {
             .map(|vertex| TrueVertex {
                 class: VertexClass::Reflected,
                 points: vec![(DVec3::ZERO, Some(place(vertex, 1).as_dvec2()))],
+                focal: vec![None],
                 undecided: 0,
             })
             .collect();
@@ -607,6 +608,7 @@ fn of_several_answers_those_that_are_found_are_judged() {
         points: [1.0, 5.0]
             .map(|x| (DVec3::ZERO, Some(DVec2::new(x, 0.0))))
             .to_vec(),
+        focal: vec![Some(0), Some(2)],
         undecided: 3,
     }];
     let report = |results: &[VertexResult]| vertex_report(results, &truth, |_, _| true).unwrap();
@@ -639,6 +641,11 @@ fn of_several_answers_those_that_are_found_are_judged() {
     assert_eq!(
         (solutions.existing, solutions.found, solutions.spurious),
         (2, 1, 1)
+    );
+    let by_k = solutions.by_k.unwrap();
+    assert_eq!(
+        [by_k.k0, by_k.k1, by_k.k2].map(|of| (of.existing, of.found)),
+        [(1, 0), (0, 0), (1, 1)]
     );
     assert_eq!(found.undecided, Some(3));
     // Where none is found, what is called hidden or unreflected is what there is.

@@ -12,11 +12,7 @@ static TECHNIQUES: &[Technique] = &[
     search::<search::ray_hierarchy::RayHierarchy>(),
     search::<search::reflector_cubemap::ReflectorCubemap>(),
     search::<search::newton::Newton>(),
-    missing(
-        Family::Search,
-        "swept-boxes",
-        "watertight pyramid, all solutions",
-    ),
+    search::<search::swept_boxes::SweptBoxes>(),
     refinement::<refine::full::Full>(),
     refinement::<refine::adaptive::Adaptive>(),
     refinement::<refine::grid::Grid>(),

@@ -84,12 +84,15 @@ impl Searched {
     pub(crate) fn run(&mut self, gpu: &Gpu) {
         gpu.run(|frame| {
             self.stage.begin(frame, Variant::AllLayers);
-            for (sheet, points) in self.sheets.iter().zip(&self.batches) {
-                self.stage.record_maps(frame, sheet.mirror);
-                self.search.record_build(frame, &self.stage, sheet.mirror);
+            for sheets in self.sheets.chunk_by(|a, b| a.mirror == b.mirror) {
+                let mirror = sheets[0].mirror;
+                self.stage.record_maps(frame, mirror);
+                self.search.record_build(frame, &self.stage, mirror);
+                let batches = sheets.iter().map(|sheet| &self.batches[sheet.index]);
+                let batches: Vec<_> = batches.collect();
                 let variant = Variant::AllLayers;
                 self.search
-                    .record_search(frame, &self.stage, *sheet, points, variant);
+                    .record_sheets(frame, &self.stage, sheets, &batches, variant);
             }
         });
     }

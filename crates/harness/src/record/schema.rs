@@ -20,6 +20,7 @@ const LATER: [&str; 16] = [
     "object_agreement_min",
     "added_ms",
     "solutions",
+    "by_k",
     "undecided",
     "exact_points",
     "cluster_tests",

@@ -2,9 +2,9 @@
 
 use catoptric_frame::{Triangles, Work};
 use catoptric_metrics::{
-    ColorError, Coverage, Discard, Jitter, MirrorMotion, Mismatch, More, MotionError, MotionPart,
-    MotionPicture, NonFinite, OffsetShare, PairedDifference, Region, Regions, SolutionCount,
-    Summary, Temporal, Timing, TrueMotion, VertexReport,
+    ColorError, Coverage, Discard, FoundCount, Jitter, MirrorMotion, Mismatch, More, MotionError,
+    MotionPart, MotionPicture, NonFinite, OffsetShare, PairedDifference, Region, Regions,
+    SolutionCount, SolutionsByK, Summary, Temporal, Timing, TrueMotion, VertexReport,
 };
 use serde_json::{Value, json};
 
@@ -96,6 +96,20 @@ pub fn measured(scene: &str, technique: &str) -> Record {
                 existing: 80,
                 found: 76,
                 spurious: 3,
+                by_k: Some(SolutionsByK {
+                    k0: FoundCount {
+                        existing: 50,
+                        found: 48,
+                    },
+                    k1: FoundCount {
+                        existing: 10,
+                        found: 9,
+                    },
+                    k2: FoundCount {
+                        existing: 20,
+                        found: 19,
+                    },
+                }),
             }),
             undecided: Some(0),
             hole: Some(0),

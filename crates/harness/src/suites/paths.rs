@@ -49,6 +49,7 @@ pub const OFF_RIM: &str = "regions.interior.angular_error_deg.p50";
 pub const FAILED: &str = "vertices.failed";
 pub const HOLES: &str = "vertices.hole";
 pub const REFLECTED: &str = "vertices.reflected";
+pub const SPURIOUS: &str = "vertices.solutions.spurious";
 pub const RECALL: &str = "vertices.recall";
 pub const WORK: &str = "work.total";
 pub const MOVING_STEPS: &str = "temporal.steps";

@@ -24,6 +24,7 @@ const GOLDENS: &[(&str, &str)] = &[
     ("sphere-objects-1k", "newton"),
     ("sphere-table", "newton+pixel"),
     ("sphere-square", "newton(fragments=exact)"),
+    ("bowl", "swept-boxes"),
     ("planar", "planar"),
     ("ellipsoid", "ray-trace"),
     ("kitchen", "beams"),

@@ -21,6 +21,7 @@
 mod alhazen;
 mod bowl;
 mod ellipsoid;
+mod focal;
 mod mesh;
 mod patch;
 mod plane;
@@ -144,9 +145,13 @@ pub fn true_vertices_watched(
                 Err(_) => Solutions::none(VertexClass::Unknown),
             };
             let project = |point: DVec3| (point, view.project(point).map(|(at, _)| at));
+            let shape = &scene.mirrors[index / count].shape;
+            let focal = solutions.points.iter();
+            let focal = focal.map(|point| focal::before(shape, view.eye, *point, vertex));
             TrueVertex {
                 class: solutions.class,
                 undecided: solutions.undecided,
+                focal: focal.collect(),
                 points: solutions.points.into_iter().map(project).collect(),
             }
         })

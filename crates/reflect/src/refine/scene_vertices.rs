@@ -39,7 +39,7 @@ impl SceneVertices {
         }
     }
 
-    /// Records the search on one sheet.
+    /// Records the search on one sheet; with the first sheet of a mirror, that on all of them.
     pub(crate) fn record(
         &self,
         frame: &mut Recorder<'_>,
@@ -48,7 +48,13 @@ impl SceneVertices {
         sheet: Sheet,
         variant: Variant,
     ) {
-        search.record_search(frame, stage, sheet, &self.batches[sheet.index], variant);
+        if sheet.number == 0 {
+            let of_mirror = |other: &&Sheet| other.mirror == sheet.mirror;
+            let sheets: Vec<_> = self.sheets.iter().filter(of_mirror).copied().collect();
+            let batches = sheets.iter().map(|sheet| &self.batches[sheet.index]);
+            let batches: Vec<_> = batches.collect();
+            search.record_sheets(frame, stage, &sheets, &batches, variant);
+        }
     }
 
     /// Answers of the last frame, mirrors outer; those of a vertex on all sheets of a mirror in a row.

@@ -10,6 +10,7 @@ pub(crate) mod ray_hierarchy;
 pub(crate) mod reflector_cubemap;
 pub(crate) mod sheet;
 mod start;
+pub(crate) mod swept_boxes;
 
 use catoptric_scene::Scene;
 
@@ -101,6 +102,21 @@ pub(crate) trait Search {
         points: &Points,
         variant: Variant,
     );
+
+    /// Records the search of the same points on all sheets of a mirror, a batch each, one sheet after the
+    /// other if not all at once.
+    fn record_sheets(
+        &self,
+        frame: &mut Recorder<'_>,
+        stage: &Stage,
+        sheets: &[Sheet],
+        batches: &[&Points],
+        variant: Variant,
+    ) {
+        for (sheet, points) in sheets.iter().zip(batches) {
+            self.record_search(frame, stage, *sheet, points, variant);
+        }
+    }
 }
 
 /// What every search is made from.

@@ -241,13 +241,14 @@ impl Efforts {
         self.node_tests += other.node_tests;
     }
 
-    /// Means per point searched for; node tests only where the search goes through a hierarchy.
+    /// Means per point searched for; node tests only where the search goes through a hierarchy, known to
+    /// or seen by its tests.
     pub(crate) fn mean(&self, hierarchy: bool) -> Work {
         let mean = |total: u64| (self.searched > 0).then(|| total as f64 / self.searched as f64);
         Work {
             steps: mean(self.steps),
             evaluations: mean(self.evaluations),
-            node_tests: mean(self.node_tests).filter(|_| hierarchy),
+            node_tests: mean(self.node_tests).filter(|mean| hierarchy || *mean > 0.0),
             ..Work::default()
         }
     }

@@ -18,6 +18,7 @@ pub(crate) struct GBuffer {
     normal: Vec<Vec4>,
 }
 
+const SIDE_FRONT: f32 = 1.0;
 const SIDE_BACK: f32 = 2.0;
 
 impl GBuffer {
@@ -52,11 +53,21 @@ impl GBuffer {
 
     /// True where the reflecting side of this mirror is seen.
     pub(crate) fn on_mirror(&self, texel: IVec2) -> bool {
+        self.side(texel).is_some_and(|side| side != SIDE_BACK)
+    }
+
+    /// True where the front of this mirror is seen, so that its reflected ray is to be followed.
+    pub(crate) fn shows_front(&self, texel: IVec2) -> bool {
+        self.side(texel) == Some(SIDE_FRONT)
+    }
+
+    /// Which side of this mirror is seen.
+    fn side(&self, texel: IVec2) -> Option<f32> {
         if texel.cmplt(IVec2::ZERO).any() || texel.cmpge(self.size).any() {
-            return false;
+            return None;
         }
-        self.position[self.index(texel)].w == self.mirror_id as f32
-            && self.normal[self.index(texel)].w != SIDE_BACK
+        let is_mirror = self.position[self.index(texel)].w == self.mirror_id as f32;
+        is_mirror.then(|| self.normal[self.index(texel)].w)
     }
 }
 

@@ -10,6 +10,10 @@ pub const RAW: &str = "hierarchy";
 pub const ENLARGED: &str = "hierarchy, enlarged";
 pub const STOPPED: &str = "hierarchy, stopped early";
 
+/// Ours, cold and from the previous frame.
+pub const SWEPT: (&str, &str) = ("swept boxes", "swept-boxes");
+pub const SWEPT_WARM: (&str, &str) = ("swept boxes, warm", "swept-boxes(start=previous)");
+
 /// Series of every figure: label and technique.
 pub const SEARCHES: [(&str, &str); 5] = [
     (LINEAR, "linear"),

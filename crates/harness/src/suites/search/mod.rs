@@ -12,6 +12,7 @@ mod data;
 mod labels;
 mod more;
 mod pictures;
+mod recall;
 
 use crate::show::plot::Axis;
 use crate::suites::claims::Claim;
@@ -24,7 +25,7 @@ use crate::suites::series::{Point, Series};
 use crate::suites::shelf::CONTROL;
 use crate::suites::suite::{Asked, Budget, Layout, Suite};
 
-use self::data::{CASES, FRAMES, MESH, MOVING, QUOTES, SEARCHES, SIZES};
+use self::data::{CASES, FRAMES, MESH, MOVING, QUOTES, SEARCHES, SIZES, SWEPT, SWEPT_WARM};
 
 /// The suite.
 pub const SUITE: Suite = Suite {
@@ -68,6 +69,7 @@ fn figures(asked: &Asked<'_>) -> Vec<Figure> {
             claims::FULL_VIEW,
         ),
         exactness(),
+        recall::figure(),
         motion(&MOVING),
     ];
     figures.extend(more::figures());
@@ -148,7 +150,7 @@ fn growth(
         after,
         question: question.to_owned(),
         axis: Axis::log("vertices"),
-        series: SEARCHES.iter().map(series).collect(),
+        series: (SEARCHES.iter().chain([&SWEPT, &SWEPT_WARM]).map(series)).collect(),
         quantities: quantities(Quantity::log),
         quotes: &[],
         claims,

@@ -77,13 +77,12 @@ pub struct SolutionCount {
     /// Answers, stand-ins aside, without a true point within 0.75 px, in view or not; those of vertices
     /// whose truth is not known do not count.
     pub spurious: u64,
-    /// True points by the number k of focal points of the reflected beam before the vertex: 0 the upright
-    /// image, 2 the inverted one, 1 the one between, which is turned over. `None` where k is known of no point.
-    #[serde(default)]
+    /// True points by the number k of focal points before the vertex; null where k is known of none.
     pub by_k: Option<SolutionsByK>,
 }
 
-/// True points by the number of focal points before the vertex.
+/// True points by the number k of focal points of the reflected beam before the vertex: 0 the upright image, 2
+/// the inverted one, 1 the one between, which is turned over.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct SolutionsByK {

@@ -11,7 +11,7 @@ use super::row::Record;
 
 /// Fields that this version of the record has not had from the start, wherever they stand: earlier
 /// ones lack them. So do the members of [`GROWING`].
-const LATER: [&str; 16] = [
+const LATER: [&str; 17] = [
     "resolved_by",
     "equal",
     "left_out",

@@ -3,6 +3,8 @@
 //! `parse` a technique name, ask `supports`, `prepare` it for a scene and size, then `render`
 //! (all layers and counters) or `time_frame` (what an application would draw).
 //!
+//! [`embed`] is apart: one technique, `beams`, for a renderer that has its own device, G-buffer and triangles.
+//!
 //! The rooms, each built on those before it:
 //! * `gpu/`: device, buffers, pipelines, shader linking, recorder, clock; knows nothing of mirrors;
 //! * `stage/`: what every technique stands on;
@@ -31,6 +33,7 @@ mod testing;
 pub use diagnostics::{Answer, DistanceLevel, Question, Visit};
 pub use error::ReflectError;
 pub use gpu::{AdapterInfo, FrameTime, Gpu, GpuError, Prefer, SelfTest, adapters, shaders};
+pub use image_order::beams::embed;
 pub use options::{OptionInfo, Values};
 pub use prepared::Prepared;
 pub use registry::list;
@@ -38,6 +41,9 @@ pub use search::reflector_cubemap::twin::{CubemapAnswer, CubemapStep, CubemapWal
 pub use spec::{Options, Spec, SpecError};
 pub use stage::STAGE_PASSES;
 pub use technique::{Family, Output, Properties, TechniqueInfo};
+
+/// The graphics library that [`embed`] speaks of.
+pub use wgpu;
 
 use catoptric_scene::Scene;
 

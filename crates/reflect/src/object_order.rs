@@ -122,7 +122,7 @@ impl Technique for ObjectOrder {
     fn output(&self, gpu: &Gpu) -> Output {
         let efforts = self.refine.efforts(gpu, &self.stage);
         Output {
-            frame: self.stage.layers(gpu),
+            frame: self.stage.layers(gpu, None),
             may_be_unresolved: false,
             vertices: Some(self.refine.vertices(gpu, &self.stage)),
             searched: efforts.searched,

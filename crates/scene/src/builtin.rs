@@ -9,7 +9,7 @@ macro_rules! scenes {
 }
 
 /// Scenes with a file of their own.
-const SCENES: [(&str, &str); 27] = scenes![
+const SCENES: [(&str, &str); 28] = scenes![
     "sphere-square",
     "sphere-square-hidden",
     "ellipsoid-square",
@@ -17,6 +17,7 @@ const SCENES: [(&str, &str); 27] = scenes![
     "sphere-objects-20k",
     "spheres",
     "planar",
+    "facing",
     "bowl",
     "ellipsoid",
     "sphere-table",

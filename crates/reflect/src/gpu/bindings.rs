@@ -18,6 +18,8 @@ pub(crate) enum Slot {
     Textures,
     /// A [`FLOAT4`] image that shaders write; compute stage only.
     Image,
+    /// Image of four `u32` that shaders write; compute stage only.
+    Numbers,
     /// Acceleration structure for ray queries.
     Structure,
     /// Layers of two floats that shaders write; compute stage only.
@@ -42,7 +44,7 @@ pub(crate) fn layout(gpu: &Gpu, label: &str, slots: &[Slot]) -> wgpu::BindGroupL
         .map(|(binding, slot)| wgpu::BindGroupLayoutEntry {
             binding,
             visibility: match slot {
-                Slot::Write | Slot::Image | Slot::WriteArray | Slot::Structure => {
+                Slot::Write | Slot::Image | Slot::Numbers | Slot::WriteArray | Slot::Structure => {
                     wgpu::ShaderStages::COMPUTE
                 }
                 _ => wgpu::ShaderStages::all(),
@@ -56,6 +58,11 @@ pub(crate) fn layout(gpu: &Gpu, label: &str, slots: &[Slot]) -> wgpu::BindGroupL
                 Slot::Image => wgpu::BindingType::StorageTexture {
                     access: wgpu::StorageTextureAccess::WriteOnly,
                     format: FLOAT4,
+                    view_dimension: wgpu::TextureViewDimension::D2,
+                },
+                Slot::Numbers => wgpu::BindingType::StorageTexture {
+                    access: wgpu::StorageTextureAccess::WriteOnly,
+                    format: wgpu::TextureFormat::Rgba32Uint,
                     view_dimension: wgpu::TextureViewDimension::D2,
                 },
                 Slot::Structure => wgpu::BindingType::AccelerationStructure {

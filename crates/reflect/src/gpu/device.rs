@@ -117,6 +117,27 @@ impl Gpu {
         }
     }
 
+    /// A device that somebody else has opened, whose errors and loss go where they went before.
+    pub(crate) fn given(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
+        let limits = device.limits();
+        Self {
+            device: device.clone(),
+            queue: queue.clone(),
+            budget: Budget::default(),
+            info: AdapterInfo {
+                name: "given".to_owned(),
+                driver: String::new(),
+                backend: String::new(),
+                software: false,
+                timestamps: false,
+                ray_queries: false,
+                max_image: limits.max_texture_dimension_2d,
+                max_storage_binding: limits.max_storage_buffer_binding_size,
+                subgroups: None,
+            },
+        }
+    }
+
     /// What was opened.
     pub fn info(&self) -> &AdapterInfo {
         &self.info

@@ -34,6 +34,6 @@ pub(crate) use pipelines::{
 pub(crate) use recorder::{Begin, Recorder};
 pub use self_test::SelfTest;
 pub(crate) use textures::{
-    DEPTH, FLOAT4, image_with_levels, level_view, pyramid, target, texture_array, texture_with,
-    view,
+    DEPTH, FLOAT4, image_with_levels, level_view, pyramid, target, texture_array,
+    texture_of_numbers, texture_with, view,
 };

@@ -111,10 +111,18 @@ impl<'a> Recorder<'a> {
 }
 
 impl Gpu {
+    /// Records passes into an encoder, without times.
+    pub(crate) fn record_into(
+        encoder: &mut wgpu::CommandEncoder,
+        record: impl FnOnce(&mut Recorder<'_>),
+    ) {
+        record(&mut Recorder::new(encoder, &mut Stamps::new(None)));
+    }
+
     /// Records passes and submits them, without times.
     pub(crate) fn run(&self, record: impl FnOnce(&mut Recorder<'_>)) {
         let mut encoder = self.device.create_command_encoder(&Default::default());
-        record(&mut Recorder::new(&mut encoder, &mut Stamps::new(None)));
+        Self::record_into(&mut encoder, record);
         self.queue.submit([encoder.finish()]);
     }
 }

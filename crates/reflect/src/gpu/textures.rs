@@ -77,6 +77,33 @@ pub(crate) fn target(
     )
 }
 
+/// An image of four `u32` that compute shaders write and others read.
+pub(crate) fn texture_of_numbers(
+    gpu: &Gpu,
+    label: &str,
+    [width, height]: [u32; 2],
+) -> wgpu::Texture {
+    texture(
+        gpu,
+        &wgpu::TextureDescriptor {
+            label: Some(label),
+            size: wgpu::Extent3d {
+                width,
+                height,
+                depth_or_array_layers: 1,
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu::TextureFormat::Rgba32Uint,
+            usage: wgpu::TextureUsages::STORAGE_BINDING
+                | wgpu::TextureUsages::TEXTURE_BINDING
+                | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        },
+    )
+}
+
 /// A square [`FLOAT4`] image with all its levels, written by compute shaders; `side` is a power of
 /// two.
 pub(crate) fn pyramid(gpu: &Gpu, label: &str, side: u32) -> wgpu::Texture {

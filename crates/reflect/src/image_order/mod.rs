@@ -2,6 +2,7 @@
 //! as its shader: mirror G-buffer → technique → composite.
 
 pub(crate) mod beams;
+mod coincident;
 pub(crate) mod cubemap_trace;
 mod cubemaps;
 pub(crate) mod environment_map;
@@ -42,6 +43,13 @@ pub(crate) trait ImageOrder {
 
     /// Work of the last frame: means per mirror pixel.
     fn work(&self, gpu: &Gpu, stage: &Stage) -> Work;
+
+    /// Of each pixel of the last frame with all layers: the length of its path's last segment, world units,
+    /// and the reflections on the path (first and second number of four; 0 where no ray was followed).
+    /// `None` from a technique that follows no path past the first reflection.
+    fn paths(&self, _: &Gpu) -> Option<Vec<[f32; 4]>> {
+        None
+    }
 
     /// What else the reader of the last frame's numbers should know, in sentences.
     fn notes(&self, _: &Gpu, _: &Stage) -> Vec<String> {
@@ -165,7 +173,7 @@ impl Technique for Whole {
 
     fn output(&self, gpu: &Gpu) -> Output {
         Output {
-            frame: self.stage.layers(gpu),
+            frame: self.stage.layers(gpu, self.technique.paths(gpu).as_deref()),
             may_be_unresolved: self.properties.may_be_unresolved,
             vertices: None,
             searched: 0,

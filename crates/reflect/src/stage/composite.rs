@@ -17,7 +17,8 @@ pub(crate) struct Reflections {
     /// Linear RGB, 1; all 0 where nothing was drawn, so that the background is reflected.
     pub color: wgpu::Texture,
     /// World-space position and id of the object reflected; all 0 for the background; the id is
-    /// −1 where the technique found no answer.
+    /// −1 where the technique found no answer, −2 where a reflected ray after the first would start
+    /// below the surface.
     pub position: wgpu::Texture,
     /// Depth among the reflections; its meaning is the technique's.
     pub depth: wgpu::Texture,

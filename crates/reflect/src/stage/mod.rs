@@ -32,6 +32,9 @@ use primary::Primary;
 use world::World;
 
 const GBUFFER: &str = "gbuffer";
+/// The id that a technique gives where a later reflected ray would start below the surface of its mirror. Twin
+/// of `BELOW_ID` in `beams/ends.wesl`.
+const BELOW: f32 = -2.0;
 
 /// Names of the passes that every technique's frame has, whatever the technique; all others are its own.
 pub const STAGE_PASSES: [&str; 3] = [primary::PASS, GBUFFER, composite::PASS];
@@ -115,8 +118,9 @@ impl Stage {
         self.composite.record(frame, &self.world);
     }
 
-    /// Reads back the layers of the frame that was rendered last, in [`Variant::AllLayers`].
-    pub(crate) fn layers(&self, gpu: &Gpu) -> Frame {
+    /// Reads back the layers of the frame that was rendered last, in [`Variant::AllLayers`]. `paths`: where a
+    /// technique follows paths, the length of each pixel's last segment and its reflections.
+    pub(crate) fn layers(&self, gpu: &Gpu, paths: Option<&[[f32; 4]]>) -> Frame {
         let read = |texture| gpu.read_texture(texture);
         let xyz = |texel: &[f32; 4]| Vec3::new(texel[0], texel[1], texel[2]);
         let size = self.world.size;
@@ -141,11 +145,13 @@ impl Stage {
             status[pixel] = match mirror_normal[pixel][3] as u32 {
                 2 => Status::Back,
                 3 => Status::Below,
+                _ if hits[pixel][3] == BELOW => Status::Below,
                 _ if hits[pixel][3] < 0.0 => Status::Unresolved,
                 _ => Status::Resolved,
             };
             if status[pixel] == Status::Resolved && hits[pixel][3] > 0.0 {
-                distance[pixel] = xyz(&hits[pixel]).distance(xyz(&mirror_position[pixel]));
+                let first = || xyz(&hits[pixel]).distance(xyz(&mirror_position[pixel]));
+                distance[pixel] = paths.map_or_else(first, |paths| paths[pixel][0]);
             } else {
                 hits[pixel] = [0.0; 4];
             }
@@ -162,7 +168,10 @@ impl Stage {
                 id: ids(&hits),
                 position: image(&hits),
                 distance: Image::from_vec(size, distance),
-                bounces: None,
+                bounces: paths.map(|paths| {
+                    let reflections = paths.iter().map(|path| path[1] as u32);
+                    Image::from_vec(size, reflections.collect())
+                }),
             }),
             motion: None,
             names: self.world.names(),

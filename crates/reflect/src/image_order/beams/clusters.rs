@@ -1,8 +1,10 @@
 //! Neighbouring triangles in clusters, made once: a cluster whose box no ray of a node may meet spares
 //! that node the tests of all its triangles.
 
-use catoptric_scene::{Scene, first_of_coincident};
+use catoptric_scene::Scene;
 use glam::Vec3;
+
+use crate::image_order::coincident::{self, Slot};
 
 /// Triangles of a cluster; only the last one has fewer. Twin of `CLUSTER` in `beams/node.wesl`.
 pub(super) const CLUSTER: usize = 32;
@@ -11,58 +13,42 @@ pub(super) const CLUSTER: usize = 32;
 /// all sides is looked for.
 const MANY: usize = 1 << 15;
 
-/// A place in the clusters: the vertices of its triangle, counted over all objects, and the triangle's
-/// index among the scene's.
-pub(super) type Slot = [u32; 4];
-
-/// All places, one cluster after the other.
-///
-/// Of triangles of one object that coincide the first is there alone: they do so in every frame.
-pub(super) fn clusters(scene: &Scene) -> Vec<Slot> {
-    let mut slots = Vec::new();
-    let mut centers = Vec::new();
-    let (mut first_vertex, mut first_triangle) = (0, 0);
-    for object in &scene.objects {
-        let mesh = &object.mesh;
-        let corners = |index: usize| {
-            let triangle: [u32; 3] = mesh.triangles[index];
-            triangle.map(|vertex| mesh.positions[vertex as usize])
-        };
-        let seen = first_of_coincident(mesh.triangles.len(), |index| (corners(index), false));
-        for (index, triangle) in mesh.triangles.iter().enumerate() {
-            if seen[index] {
-                let [a, b, c] = triangle.map(|vertex| first_vertex + vertex);
-                slots.push([a, b, c, first_triangle + index as u32]);
-                centers.push(Bounds::of(corners(index)));
-            }
-        }
-        first_vertex += mesh.positions.len() as u32;
-        first_triangle += mesh.triangles.len() as u32;
-    }
-    let mut order: Vec<u32> = (0..slots.len() as u32).collect();
-    sort(&mut order, &centers);
-    order.iter().map(|index| slots[*index as usize]).collect()
+/// All places, one cluster after the other; triangles of mirrors come before those of objects in what their
+/// indices count.
+pub(super) fn clusters(scene: &Scene, mirrors: &[[Vec3; 3]]) -> Vec<Slot> {
+    let of_objects = coincident::slots(scene, mirrors.len() as u32);
+    let positions = coincident::positions(scene);
+    let of_object = |[a, b, c, _]: &Slot| [*a, *b, *c].map(|vertex| positions[vertex as usize]);
+    let mirror = |index: usize| [0, 0, 0, index as u32];
+    let mut slots: Vec<Slot> = (0..mirrors.len()).map(mirror).collect();
+    let corners = mirrors
+        .iter()
+        .copied()
+        .chain(of_objects.iter().map(of_object));
+    let boxes: Vec<Bounds> = corners.map(Bounds::of).collect();
+    slots.extend(&of_objects);
+    in_clusters(&slots, &boxes)
 }
 
-/// The same places, but where triangles of several objects coincide in this frame all but the first are
-/// points, which no ray meets; `None` where none coincide.
-pub(super) fn without_coincident(scene: &Scene, slots: &[Slot]) -> Option<Vec<Slot>> {
-    let meshes = scene.objects.iter().map(|object| &object.mesh);
-    let positions: Vec<Vec3> = meshes.flat_map(|mesh| &mesh.positions).copied().collect();
-    let mut order: Vec<usize> = (0..slots.len()).collect();
-    order.sort_unstable_by_key(|place| slots[*place][3]);
-    let first = first_of_coincident(slots.len(), |index| {
-        let [a, b, c, _] = slots[order[index]];
-        ([a, b, c].map(|vertex| positions[vertex as usize]), false)
-    });
-    let mut seen = slots.to_vec();
-    for (place, first) in order.iter().zip(&first) {
-        if !first {
-            let [a, _, _, triangle] = slots[*place];
-            seen[*place] = [a, a, a, triangle];
-        }
-    }
-    first.contains(&false).then_some(seen)
+/// The places of all triangles of a list, one cluster after the other.
+pub(super) fn of_triangles(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Slot> {
+    let slots = triangles.iter().zip(0..);
+    let slots: Vec<Slot> = slots
+        .map(|([a, b, c], index)| [*a, *b, *c, index])
+        .collect();
+    let corners = |triangle: &[u32; 3]| triangle.map(|vertex| positions[vertex as usize]);
+    let boxes: Vec<_> = triangles
+        .iter()
+        .map(|triangle| Bounds::of(corners(triangle)))
+        .collect();
+    in_clusters(&slots, &boxes)
+}
+
+/// The places of triangles that lie in these boxes, one cluster after the other.
+fn in_clusters(slots: &[Slot], boxes: &[Bounds]) -> Vec<Slot> {
+    let mut order: Vec<u32> = (0..slots.len() as u32).collect();
+    sort(&mut order, boxes);
+    order.iter().map(|index| slots[*index as usize]).collect()
 }
 
 /// An axis-aligned box.

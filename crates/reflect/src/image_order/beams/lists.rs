@@ -7,8 +7,10 @@
 use glam::UVec2;
 
 use super::geometry::Geometry;
+use super::paths::TOUCHING;
 use super::pyramid::Pyramid;
 use super::settings::Settings;
+use super::source::Source;
 use super::tally::Tally;
 use super::tile::Tile;
 use crate::error::ReflectError;
@@ -16,8 +18,6 @@ use crate::gpu::{
     Gpu, Kernel, Recorder, Slot, compute, compute_unset, group, layout, module, set_uniform,
     storage_zeros, uniform, view,
 };
-use crate::stage::Stage;
-use crate::stage::extent::diagonal;
 use crate::stage::variant::Variant;
 
 /// Most bytes of the lists of nodes of 32 × 32 pixels.
@@ -69,7 +69,9 @@ pub(super) struct Lists {
     plain: Kernels,
     counting: Kernels,
     split: Kernel,
-    slices: Vec<Slice>,
+    /// By reflection, by slice.
+    slices: Vec<Vec<Slice>>,
+    size: [u32; 2],
     /// Nodes in x and y: 128 × 128 and 32 × 32 pixels.
     nodes: [[u32; 2]; 2],
     tile_count: u32,
@@ -83,23 +85,36 @@ pub(super) struct Lists {
     bytes: u64,
 }
 
+/// What lists are to be: pixels along the side of a leaf, most bytes of the lists of large nodes, and how often
+/// a path is reflected.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Wanted {
+    pub(super) tile: Tile,
+    pub(super) room: u64,
+    pub(super) reflections: u32,
+}
+
 impl Lists {
+    /// `extent`: of all that rays may meet, world units.
+    ///
     /// # Errors
     /// Shaders that do not link: a bug. What the device cannot hold it notes itself.
     pub(super) fn new(
         gpu: &Gpu,
-        stage: &Stage,
+        source: &Source,
         (pyramid, geometry): (&Pyramid, &Geometry),
-        tile: Tile,
-        room: u64,
+        extent: f32,
+        wanted: Wanted,
     ) -> Result<Self, ReflectError> {
+        let size = source.size;
         let nodes = [TOP, COARSE].map(|level| pyramid.nodes(level));
         let [top_nodes, coarse_nodes] = nodes.map(|[x, y]| u64::from(x) * u64::from(y));
         let clusters = geometry.clusters();
         let limit = gpu.device.limits().max_storage_buffer_binding_size;
-        let fitting = (room.min(limit) / (4 * coarse_nodes)).clamp(1, u64::from(clusters.max(1)));
+        let fitting =
+            (wanted.room.min(limit) / (4 * coarse_nodes)).clamp(1, u64::from(clusters.max(1)));
         let fitting = fitting as u32;
-        let tile_count = tiles(stage).element_product();
+        let tile_count = tiles(size).element_product();
         let parts = 2 * u64::from(tile_count);
         let list = |nodes: u64| storage_zeros(gpu, 4 * nodes * u64::from(fitting));
         let counts = |nodes: u64| storage_zeros(gpu, 4 * nodes);
@@ -119,23 +134,20 @@ impl Lists {
         let split_layout = layout(gpu, "split", &[Read, Write, Write, Write]);
         let tiles_slots = [Texture, Texture, Texture, Read, Read, Read, Write, Write];
         let tiles_layout = layout(gpu, "tiles", &tiles_slots);
-        let size = match tile {
+        let leaves = match wanted.tile {
             Tile::Two => None,
             Tile::Four => Some("tile4"),
             Tile::Eight => Some("tile8"),
         };
         let kernels = |count: Option<&'static str>| -> Result<Kernels, ReflectError> {
             let count: Vec<_> = count.into_iter().collect();
-            let features: Vec<_> = count.iter().copied().chain(size).collect();
+            let features = count.iter().copied().chain(leaves);
+            let features: Vec<_> = features.chain(source.feature).collect();
             let sift = module(gpu, "beams/sift", &count)?;
             let tiles = module(gpu, "beams/tiles", &features)?;
             let layouts = [None, None, Some(&nodes_layout), Some(&sift_layout)];
-            let tiles_layouts = [
-                Some(&stage.world.view_layout),
-                Some(&stage.gbuffer.mirror_layout),
-                Some(&nodes_layout),
-                Some(&tiles_layout),
-            ];
+            let [view, rays] = source.layouts();
+            let tiles_layouts = [view, rays, Some(&nodes_layout), Some(&tiles_layout)];
             Ok(Kernels {
                 top: compute_unset(gpu, &sift, "top", &layouts),
                 coarse: compute_unset(gpu, &sift, "coarse", &layouts),
@@ -145,11 +157,10 @@ impl Lists {
         let split_module = module(gpu, "beams/split", &[])?;
         let split_layouts = [None, None, Some(&nodes_layout), Some(&split_layout)];
 
-        let firsts = (0..clusters.max(1)).step_by(fitting as usize);
         let views = pyramid.views();
-        let slices = firsts.map(|first| {
+        let slice = |first: u32, is_first: bool| {
             let count = fitting.min(clusters - first);
-            let values = settings(stage, geometry, [first, count, fitting]);
+            let values = settings((size, extent), geometry, [first, count, fitting], is_first);
             let settings = uniform(gpu, &values);
             let [low, high, least] = views.each_ref().map(wgpu::BindingResource::TextureView);
             let nodes = [low, high, least, settings.as_entire_binding()];
@@ -205,6 +216,11 @@ impl Lists {
                 plan,
                 counts,
             }
+        };
+        let slices = (0..wanted.reflections).map(|reflection| {
+            let firsts = (0..clusters.max(1)).step_by(fitting as usize);
+            let slices = firsts.map(|first| slice(first, reflection == 0 && first == 0));
+            slices.collect()
         });
         let lists = [&top_list, &coarse_list, &top_counts, &coarse_counts];
         let buffers = lists
@@ -215,6 +231,7 @@ impl Lists {
             counting: kernels(Some("count"))?,
             split: compute(gpu, &split_module, "split", &split_layouts),
             slices: slices.collect(),
+            size,
             nodes,
             tile_count,
             room: fitting,
@@ -227,30 +244,34 @@ impl Lists {
 
     /// In how many slices the clusters are sent down.
     pub(super) fn slices(&self) -> usize {
-        self.slices.len()
+        self.slices[0].len()
     }
 
     /// Takes over how large the scene is now.
-    pub(super) fn update(&self, gpu: &Gpu, stage: &Stage, geometry: &Geometry) {
-        for slice in &self.slices {
-            let values = settings(stage, geometry, [slice.first, slice.count, self.room]);
-            set_uniform(gpu, &slice.settings, &values);
+    pub(super) fn update(&self, gpu: &Gpu, extent: f32, geometry: &Geometry) {
+        for (reflection, slices) in self.slices.iter().enumerate() {
+            for slice in slices {
+                let is_first = reflection == 0 && slice.first == 0;
+                let part = [slice.first, slice.count, self.room];
+                let values = settings((self.size, extent), geometry, part, is_first);
+                set_uniform(gpu, &slice.settings, &values);
+            }
         }
     }
 
-    /// Records the passes `sift` and `tiles` for a slice.
+    /// Records the passes `sift` and `tiles` for a slice, for the rays after so many reflections of each path.
     pub(super) fn record(
         &self,
         frame: &mut Recorder<'_>,
-        stage: &Stage,
-        slice: usize,
+        source: &Source,
+        (reflections, slice): (usize, usize),
         variant: Variant,
     ) {
         let kernels = match variant {
             Variant::AllLayers => &self.counting,
             Variant::Color => &self.plain,
         };
-        let slice = &self.slices[slice];
+        let slice = &self.slices[reflections][slice];
         frame.compute("sift", |pass| {
             pass.set_bind_group(2, &slice.nodes, &[]);
             let levels = [(&kernels.top, &slice.top), (&kernels.coarse, &slice.coarse)];
@@ -265,8 +286,7 @@ impl Lists {
         });
         frame.compute("tiles", |pass| {
             pass.set_pipeline(&kernels.tiles);
-            pass.set_bind_group(0, &stage.world.view_group, &[]);
-            pass.set_bind_group(1, &stage.gbuffer.mirror_groups[0], &[]);
+            source.set(pass, reflections);
             pass.set_bind_group(2, &slice.nodes, &[]);
             pass.set_bind_group(3, &slice.tiles, &[]);
             pass.dispatch_workgroups_indirect(&slice.plan, 0);
@@ -286,7 +306,7 @@ impl Lists {
             let tests = words(tests).into_iter().take((x * y) as usize);
             tally.cluster_tests += tests.map(u64::from).sum::<u64>();
         }
-        for slice in &self.slices {
+        for slice in self.slices.iter().flatten() {
             let parts = words(&slice.plan)[3];
             let counts = gpu.read_buffer_part(&slice.counts, COUNTS * u64::from(parts));
             let counts: Vec<[u32; 5]> = bytemuck::pod_collect_to_vec(&counts);
@@ -303,19 +323,27 @@ impl Lists {
 }
 
 /// Tiles of the image in x and y.
-fn tiles(stage: &Stage) -> UVec2 {
-    UVec2::from_array(stage.world.size.map(|side| side.div_ceil(TILE)))
+fn tiles(size: [u32; 2]) -> UVec2 {
+    UVec2::from_array(size.map(|side| side.div_ceil(TILE)))
 }
 
-/// For a slice: its first cluster, its clusters, and how many a list has room for.
-fn settings(stage: &Stage, geometry: &Geometry, [first, count, room]: [u32; 3]) -> Settings {
+/// For a slice: its first cluster, its clusters, and how many a list has room for; whether it is the first of
+/// the frame.
+fn settings(
+    (size, extent): ([u32; 2], f32),
+    geometry: &Geometry,
+    [first, count, room]: [u32; 3],
+    is_first: bool,
+) -> Settings {
     Settings {
-        wider: WIDER * diagonal(&stage.world.scene),
-        tiles: tiles(stage),
+        wider: WIDER * extent,
+        tiles: tiles(size),
         triangles: geometry.triangles,
         first_cluster: first,
         cluster_count: count,
         room,
-        is_first: u32::from(first == 0),
+        is_first: u32::from(is_first),
+        mirror_triangles: geometry.mirror_triangles,
+        touching: TOUCHING * extent,
     }
 }

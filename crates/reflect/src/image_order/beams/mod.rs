@@ -12,15 +12,21 @@
 //! time, and where there are more of these than the memory takes, they are sent down in slices
 //! (`lists.rs`); those of a tile lie in a workgroup's memory, which has room for a batch of triangles.
 //!
-//! Counted: a node test is one of a box of a cluster or a triangle against a node, an evaluation a test of
+//! With `bounces` mirrors are seen in mirrors: the hierarchy is built again over the second rays (`paths.rs`).
+//!
+//! Counted, over all rays of a path: a node test is one of a box of a cluster or a triangle against a node, an evaluation a test of
 //! a ray against a triangle.
 
 mod clusters;
+pub mod embed;
 mod geometry;
 mod lists;
+mod mirrors;
+mod paths;
 mod pyramid;
 mod settings;
 mod shade;
+mod source;
 mod tally;
 #[cfg(test)]
 mod tests;
@@ -35,19 +41,25 @@ use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder};
 use crate::options::options;
 use crate::stage::Stage;
+use crate::stage::extent::diagonal;
 use crate::stage::variant::Variant;
 use crate::technique::{Info, Named};
 
 use geometry::Geometry;
-use lists::Lists;
+use lists::{Lists, Wanted};
+use mirrors::Mirrors;
+use paths::{Paths, RayImages};
 use pyramid::Pyramid;
 use shade::Shade;
+use source::Source;
 use tile::Tile;
 
 options! {
     pub(crate) struct Beams {
         /// pixels along the side of the smallest nodes, whose pixels test their triangles one by one
         tile: Tile,
+        /// most reflections on a path: with more than 1, mirrors are seen in mirrors
+        bounces: u32 = 1 in 1..=16,
     }
 }
 
@@ -61,48 +73,120 @@ impl Named for Beams {
 
 impl Recipe for Beams {
     fn make(&self, gpu: &Gpu, stage: &Stage) -> Result<Box<dyn ImageOrder>, ReflectError> {
-        Ok(Box::new(Ready::new(gpu, stage, self.tile, lists::ROOM)?))
+        Ok(Box::new(Ready::new(
+            gpu,
+            stage,
+            Wanted {
+                tile: self.tile,
+                room: lists::ROOM,
+                reflections: self.bounces,
+            },
+        )?))
     }
 }
 
 /// The technique, ready for a scene.
 struct Ready {
+    source: Source,
     pyramid: Pyramid,
     geometry: Geometry,
     lists: Lists,
-    shade: Shade,
+    seen: Seen,
+}
+
+/// What becomes of what rays meet.
+enum Seen {
+    /// It is shown.
+    First(Shade),
+    /// Mirrors reflect it.
+    Paths(Box<(Mirrors, Paths)>),
 }
 
 impl Ready {
-    /// `room`: most bytes of the lists of large nodes.
-    fn new(gpu: &Gpu, stage: &Stage, tile: Tile, room: u64) -> Result<Self, ReflectError> {
-        let pyramid = Pyramid::new(gpu, stage)?;
-        let geometry = Geometry::new(gpu, stage)?;
-        let lists = Lists::new(gpu, stage, (&pyramid, &geometry), tile, room)?;
-        let shade = Shade::new(gpu, stage, &lists)?;
+    fn new(gpu: &Gpu, stage: &Stage, wanted: Wanted) -> Result<Self, ReflectError> {
+        let more = wanted.reflections > 1;
+        let mirrors = more.then(|| Mirrors::new(gpu, stage));
+        let images = more.then(|| RayImages::new(gpu, stage));
+        let (images, source) = images.unzip();
+        let source = source.unwrap_or_else(|| Source::of_gbuffer(stage));
+        let pyramid = Pyramid::new(gpu, &source)?;
+        let geometry = Geometry::new(gpu, stage, mirrors.as_ref())?;
+        let extent = diagonal(&stage.world.scene);
+        let lists = Lists::new(gpu, &source, (&pyramid, &geometry), extent, wanted)?;
+        let seen = match mirrors.zip(images) {
+            None => Seen::First(Shade::new(gpu, stage, &lists)?),
+            Some((mirrors, images)) => {
+                let of = (stage, &lists, &mirrors);
+                let paths = Paths::new(gpu, of, (&images, &source), wanted.reflections)?;
+                Seen::Paths(Box::new((mirrors, paths)))
+            }
+        };
         gpu.check()?;
         Ok(Self {
+            source,
             pyramid,
             geometry,
             lists,
-            shade,
+            seen,
         })
+    }
+
+    /// Records the passes that find what the rays after so many reflections of each path meet; `met` records
+    /// what comes after each slice.
+    fn record_rays(
+        &self,
+        frame: &mut Recorder<'_>,
+        variant: Variant,
+        reflections: usize,
+        met: impl Fn(&mut Recorder<'_>, usize),
+    ) {
+        self.pyramid.record(frame, &self.source, reflections);
+        if reflections == 0 {
+            self.geometry.record(frame);
+        }
+        for slice in 0..self.lists.slices() {
+            let part = (reflections, slice);
+            self.lists.record(frame, &self.source, part, variant);
+            met(frame, slice);
+        }
     }
 }
 
 impl ImageOrder for Ready {
     fn update(&mut self, gpu: &Gpu, stage: &Stage) -> Result<(), ReflectError> {
         self.geometry.update(gpu, stage);
-        self.lists.update(gpu, stage, &self.geometry);
+        let extent = diagonal(&stage.world.scene);
+        self.lists.update(gpu, extent, &self.geometry);
+        if let Seen::Paths(more) = &self.seen {
+            let (mirrors, paths) = &**more;
+            mirrors.update(gpu, &stage.world.scene);
+            paths.update(gpu, stage);
+        }
         Ok(())
     }
 
     fn record(&self, frame: &mut Recorder<'_>, stage: &Stage, variant: Variant) {
-        self.pyramid.record(frame, stage);
-        self.geometry.record(frame);
-        for slice in 0..self.lists.slices() {
-            self.lists.record(frame, stage, slice, variant);
-            self.shade.record(frame, stage, slice, variant);
+        match &self.seen {
+            Seen::First(shade) => self.record_rays(frame, variant, 0, |frame, slice| {
+                shade.record(frame, stage, slice, variant);
+            }),
+            Seen::Paths(more) => {
+                let (_, paths) = &**more;
+                paths.record_first(frame, stage);
+                for reflections in 0..paths.reflections {
+                    self.record_rays(frame, variant, reflections, |frame, slice| {
+                        paths.record(frame, &self.source, slice, reflections);
+                    });
+                }
+                paths.record_shade(frame, stage, &self.source, variant);
+            }
+        }
+    }
+
+    fn paths(&self, gpu: &Gpu) -> Option<Vec<[f32; 4]>> {
+        match &self.seen {
+            Seen::First(_) => None,
+            Seen::Paths(more) => Some(more.1.read(gpu)),
         }
     }
 

@@ -1,11 +1,11 @@
 //! The hierarchy over the reflected rays (`beams/pyramid.wesl`), built for each frame.
 
+use super::source::Source;
 use crate::error::ReflectError;
 use crate::gpu::{
     Gpu, Kernel, Recorder, Slot, compute, group, image_with_levels, layout, level_view, module,
     view,
 };
-use crate::stage::Stage;
 
 /// Pixels along the side of a leaf, and of a node of the highest level.
 const LEAF: u32 = 2;
@@ -29,11 +29,8 @@ pub(super) struct Pyramid {
 impl Pyramid {
     /// # Errors
     /// Shaders that do not link: a bug. What the device cannot hold it notes itself.
-    pub(super) fn new(gpu: &Gpu, stage: &Stage) -> Result<Self, ReflectError> {
-        let size = stage
-            .world
-            .size
-            .map(|side| side.next_multiple_of(TOP) / LEAF);
+    pub(super) fn new(gpu: &Gpu, source: &Source) -> Result<Self, ReflectError> {
+        let size = source.size.map(|side| side.next_multiple_of(TOP) / LEAF);
         let images = ["rays, low", "rays, high", "rays, least"]
             .map(|label| image_with_levels(gpu, label, size, LEVELS));
         gpu.check()?;
@@ -47,12 +44,12 @@ impl Pyramid {
             };
             (0..LEVELS).map(of_level).collect()
         };
-        let module = module(gpu, "beams/pyramid", &[])?;
-        let view = Some(&stage.world.view_layout);
-        let mirror = Some(&stage.gbuffer.mirror_layout);
+        let features: Vec<_> = source.feature.into_iter().collect();
+        let module = module(gpu, "beams/pyramid", &features)?;
+        let [view, rays] = source.layouts();
         let written = Some(&written_layout);
         Ok(Self {
-            leaves: compute(gpu, &module, "leaves", &[view, mirror, written]),
+            leaves: compute(gpu, &module, "leaves", &[view, rays, written]),
             join: compute(
                 gpu,
                 &module,
@@ -78,12 +75,11 @@ impl Pyramid {
         self.images.each_ref().map(view)
     }
 
-    /// Records the pass `hierarchy`.
-    pub(super) fn record(&self, frame: &mut Recorder<'_>, stage: &Stage) {
+    /// Records the pass `hierarchy`, over the rays after so many reflections of each path.
+    pub(super) fn record(&self, frame: &mut Recorder<'_>, source: &Source, reflections: usize) {
         frame.compute("hierarchy", |pass| {
             pass.set_pipeline(&self.leaves);
-            pass.set_bind_group(0, &stage.world.view_group, &[]);
-            pass.set_bind_group(1, &stage.gbuffer.mirror_groups[0], &[]);
+            source.set(pass, reflections);
             pass.set_bind_group(2, &self.written[0], &[]);
             let [x, y] = self.leaves.groups_over(self.nodes(0));
             pass.dispatch_workgroups(x, y, 1);

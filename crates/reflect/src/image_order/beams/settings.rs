@@ -13,4 +13,6 @@ pub(super) struct Settings {
     pub cluster_count: u32,
     pub room: u32,
     pub is_first: u32,
+    pub mirror_triangles: u32,
+    pub touching: f32,
 }

@@ -1,6 +1,8 @@
 use catoptric_scene::{Material, Mesh, Paint, Random, Scene};
 use glam::{DVec2, Vec3};
 
+use super::geometry::Placing;
+use super::paths::Bounce;
 use super::settings::Settings;
 use super::tally::Tally;
 use super::twin;
@@ -34,7 +36,12 @@ fn unlike(gpu: &Gpu, scene: &Scene, technique: &str) -> usize {
 /// What is drawn of a scene, with lists of at most `room` bytes, and what is counted.
 fn drawn(gpu: &Gpu, scene: &Scene, room: u64) -> (Vec<[f32; 4]>, Tally, usize, Stage) {
     let stage = stage(gpu, scene, SIZE);
-    let beams = Ready::new(gpu, &stage, Tile::Two, room).expect("fits");
+    let wanted = Wanted {
+        tile: Tile::Two,
+        room,
+        reflections: 1,
+    };
+    let beams = Ready::new(gpu, &stage, wanted).expect("fits");
     gpu.run(|frame| {
         stage.begin(frame, Variant::AllLayers);
         beams.record(frame, &stage, Variant::AllLayers);
@@ -302,10 +309,33 @@ fn the_settings_lie_as_the_shaders_read_them() {
             first_cluster,
             cluster_count,
             room,
-            is_first
+            is_first,
+            mirror_triangles,
+            touching
         },
         "beams/tiles",
         &[],
         "Settings"
+    );
+    assert_layout!(
+        Bounce {
+            last,
+            mirrors,
+            touching
+        },
+        "beams/bounce",
+        &["rays"],
+        "Bounce"
+    );
+    assert_layout!(
+        Placing {
+            count,
+            mirror_triangles,
+            stride,
+            first
+        },
+        "beams/refit",
+        &[],
+        "Placing"
     );
 }

@@ -149,7 +149,7 @@ pub(super) fn tally(gpu: &Gpu, stage: &Stage) -> Tally {
         let [x, y, z, _] = corners[vertex as usize];
         Vec3::new(x, y, z)
     };
-    let all = clusters(scene);
+    let all = clusters(scene, &[]);
     let seen = without_coincident(scene, &all).unwrap_or(all);
     let boxes: Vec<[Vec3; 2]> = seen
         .iter()

@@ -6,12 +6,15 @@
 //! With `traversal=shader` a shader goes through obvhs's hierarchy, with `hardware` the driver's
 //! own structure is asked by ray queries. With `update=frame` either is built for each frame, as
 //! for a scene that deforms: obvhs's on the CPU before the frame, the driver's on the GPU in a pass
-//! `build`.
+//! `build`. With `update=refit` obvhs's is built once, and in each frame its boxes are fitted anew, on the
+//! GPU in a pass `refit`, whether something has moved or not.
 
 mod hardware;
+mod refit;
 mod wide;
 
 use catoptric_frame::Work;
+use catoptric_scene::Scene;
 
 use super::{ImageOrder, Recipe};
 use crate::error::ReflectError;
@@ -24,6 +27,7 @@ use crate::stage::variant::Variant;
 use crate::technique::{Built, Info, Named, Properties};
 
 use hardware::Hardware;
+use refit::Refitted;
 use wide::Wide;
 
 words! {
@@ -42,6 +46,8 @@ words! {
         Static = "static",
         /// For every frame.
         Frame = "frame",
+        /// Once; in every frame its boxes are fitted anew.
+        Refit = "refit",
     }
 }
 
@@ -49,7 +55,7 @@ options! {
     pub(crate) struct RayTrace {
         /// what goes through the hierarchy: a shader (obvhs's), or ray queries in hardware where the adapter has them (the driver's)
         traversal: Traversal,
-        /// whether the hierarchy is built when something has moved or for every frame
+        /// whether the hierarchy is built when something has moved, for every frame, or once, its boxes fitted anew in every frame (a shader's alone)
         update: Update,
     }
 }
@@ -63,6 +69,13 @@ impl Named for RayTrace {
 }
 
 impl Recipe for RayTrace {
+    fn objection(&self, _: &Scene) -> Option<String> {
+        let refits = self.update == Update::Refit && self.traversal == Traversal::Hardware;
+        let reason =
+            "update=refit: the driver's own structure is not fitted anew; take update=frame";
+        refits.then(|| reason.to_owned())
+    }
+
     fn properties(&self) -> Properties {
         Properties {
             is_control: true,
@@ -73,6 +86,9 @@ impl Recipe for RayTrace {
     fn make(&self, gpu: &Gpu, stage: &Stage) -> Result<Box<dyn ImageOrder>, ReflectError> {
         let scene = &stage.world.scene;
         let structure = match self.traversal {
+            Traversal::Shader if self.update == Update::Refit => {
+                Structure::Refitted(Box::new(Refitted::new(gpu, stage)?))
+            }
             Traversal::Shader => Structure::Wide(Wide::new(gpu, scene)?),
             Traversal::Hardware if gpu.info().ray_queries => {
                 let structure = Hardware::new(gpu, scene);
@@ -121,6 +137,7 @@ impl Extra {
 /// What the rays are traced through.
 enum Structure {
     Wide(Wide),
+    Refitted(Box<Refitted>),
     Hardware(Box<Hardware>),
 }
 
@@ -156,7 +173,9 @@ impl Rays {
         let mut slots = vec![Slot::Image, Slot::Image, Slot::Write];
         let mut features = Vec::new();
         match &structure {
-            Structure::Wide(_) => slots.extend([Slot::Read, Slot::Read]),
+            Structure::Wide(_) | Structure::Refitted(_) => {
+                slots.extend([Slot::Read, Slot::Read]);
+            }
             Structure::Hardware(_) => {
                 slots.push(Slot::Structure);
                 features.push("hardware");
@@ -181,7 +200,7 @@ impl Rays {
                 Some(&stage.world.surface_layout),
                 Some(&layout),
             ];
-            let module = module(gpu, "ray_trace", features)?;
+            let module = module(gpu, "ray_trace/trace", features)?;
             Ok(compute(gpu, &module, "reflections", &layouts))
         };
         let [width, height] = stage.world.size.map(u64::from);
@@ -201,9 +220,14 @@ impl Rays {
         })
     }
 
-    /// Takes the scene's triangles as they are now.
+    /// Takes the scene's triangles as they are now; what is fitted anew in the frame only learns which of them
+    /// coincide.
     fn rebuild(&mut self, gpu: &Gpu, stage: &Stage) -> Result<(), ReflectError> {
         self.structure = match &self.structure {
+            Structure::Refitted(structure) => {
+                structure.update(gpu, &stage.world.scene);
+                return Ok(());
+            }
             Structure::Wide(_) => Structure::Wide(Wide::new(gpu, &stage.world.scene)?),
             Structure::Hardware(_) => {
                 Structure::Hardware(Box::new(Hardware::new(gpu, &stage.world.scene)))
@@ -260,6 +284,10 @@ fn bind(
             wide.nodes.as_entire_binding(),
             wide.triangles.as_entire_binding(),
         ]),
+        Structure::Refitted(structure) => resources.extend([
+            structure.nodes.as_entire_binding(),
+            structure.triangles.as_entire_binding(),
+        ]),
         Structure::Hardware(structure) => resources.push(structure.tlas.as_binding()),
     }
     resources.extend(extra.map(wgpu::BindingResource::TextureView));
@@ -267,7 +295,7 @@ fn bind(
 }
 
 impl ImageOrder for Rays {
-    /// Builds the structure anew: any object may have moved.
+    /// Builds the structure anew, or leaves it to be fitted: any object may have moved.
     fn update(&mut self, gpu: &Gpu, stage: &Stage) -> Result<(), ReflectError> {
         self.rebuild(gpu, stage)
     }
@@ -281,6 +309,9 @@ impl ImageOrder for Rays {
     }
 
     fn record(&self, frame: &mut Recorder<'_>, stage: &Stage, variant: Variant) {
+        if let Structure::Refitted(structure) = &self.structure {
+            structure.record(frame);
+        }
         if let Structure::Hardware(structure) = &self.structure
             && self.every_frame
         {

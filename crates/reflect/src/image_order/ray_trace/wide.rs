@@ -12,13 +12,13 @@ use obvhs::cwbvh::node::CwBvhNode;
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 
 use crate::error::ReflectError;
-use crate::gpu::{Gpu, storage_bytes, storage_zeros};
+use crate::gpu::{Gpu, storage_bytes};
 
-/// Levels that the shader's stack holds (`ray_trace.wesl`): one entry each at most.
+/// Levels that the shader's stack holds (`ray_trace/trace.wesl`): one entry each at most.
 const STACK: usize = 48;
 
 /// Share of the scene's extent by which boxes grow at most: as much as f32 rounds.
-const GROWTH: f32 = 1.0 / 4_194_304.0;
+pub(super) const GROWTH: f32 = 1.0 / 4_194_304.0;
 
 /// A binary hierarchy of more levels is not folded, which takes a call a level.
 const DEEPEST: usize = 1000;
@@ -49,19 +49,12 @@ impl Wide {
             .zip(&first)
             .filter_map(|(index, first)| first.then_some(index))
             .collect();
-        if seen.is_empty() {
-            return Ok(Self {
-                nodes: storage_zeros(gpu, 80),
-                triangles: storage_zeros(gpu, 48),
-            });
-        }
-        let boxes = seen.iter().map(|index| {
-            let [a, b, c] = triangles[*index as usize];
-            Aabb::new(a.min(b).min(c).into(), a.max(b).max(c).into())
-        });
-        let hierarchy = hierarchy(boxes.collect());
-        let order = hierarchy.primitive_indices.iter();
-        let ordered: Vec<[f32; 12]> = order
+        let corners: Vec<_> = seen
+            .iter()
+            .map(|index| triangles[*index as usize])
+            .collect();
+        let folded = Folded::new(&corners);
+        let ordered: Vec<[f32; 12]> = (folded.order.iter())
             .map(|&place| {
                 let index = seen[place as usize];
                 let [a, b, c] = triangles[index as usize];
@@ -69,13 +62,65 @@ impl Wide {
                 [a.x, a.y, a.z, index, b.x, b.y, b.z, 0.0, c.x, c.y, c.z, 0.0]
             })
             .collect();
-        let nodes: &[u8] = bytemuck::cast_slice(&hierarchy.nodes);
         let ordered: &[u8] = bytemuck::cast_slice(&ordered);
         Ok(Self {
-            nodes: storage_bytes(gpu, nodes),
+            nodes: storage_bytes(gpu, bytemuck::cast_slice(&folded.nodes)),
             triangles: storage_bytes(gpu, ordered),
         })
     }
+}
+
+/// A hierarchy over triangles.
+pub(super) struct Folded {
+    /// The root first; never empty.
+    pub(super) nodes: Vec<CwBvhNode>,
+    /// Indices of the triangles, in the hierarchy's order.
+    pub(super) order: Vec<u32>,
+}
+
+impl Folded {
+    /// Over triangles by their corners.
+    pub(super) fn new(triangles: &[[Vec3; 3]]) -> Self {
+        if triangles.is_empty() {
+            return Self {
+                nodes: vec![CwBvhNode::default()],
+                order: Vec::new(),
+            };
+        }
+        let boxes = triangles
+            .iter()
+            .map(|[a, b, c]| Aabb::new(a.min(*b).min(*c).into(), a.max(*b).max(*c).into()));
+        let hierarchy = hierarchy(boxes.collect());
+        Self {
+            nodes: hierarchy.nodes,
+            order: hierarchy.primitive_indices,
+        }
+    }
+
+    /// The indices of the nodes, level by level, the root's first.
+    pub(super) fn levels(&self) -> Vec<Vec<u32>> {
+        let mut levels = vec![vec![0]];
+        loop {
+            let last = levels.last().into_iter().flatten();
+            let next: Vec<u32> = last
+                .flat_map(|node| children(&self.nodes, *node as usize))
+                .map(|child| child as u32)
+                .collect();
+            if next.is_empty() {
+                return levels;
+            }
+            levels.push(next);
+        }
+    }
+}
+
+/// The nodes below a node.
+fn children(nodes: &[CwBvhNode], index: usize) -> Vec<usize> {
+    let node = &nodes[index];
+    let inner = (0..8).filter(|child| !node.is_child_empty(*child) && !node.is_leaf(*child));
+    inner
+        .map(|child| node.child_node_index(child) as usize)
+        .collect()
 }
 
 /// A hierarchy of at most [`STACK`] levels over boxes.
@@ -143,13 +188,7 @@ fn balanced(boxes: &[Aabb]) -> Bvh2 {
 
 /// Levels of nodes.
 fn levels(nodes: &[CwBvhNode]) -> usize {
-    deepest(|index: usize| {
-        let node: &CwBvhNode = &nodes[index];
-        let inner = (0..8).filter(|child| !node.is_child_empty(*child) && !node.is_leaf(*child));
-        inner
-            .map(|child| node.child_node_index(child) as usize)
-            .collect()
-    })
+    deepest(|index| children(nodes, index))
 }
 
 /// Levels of nodes of a binary hierarchy.

@@ -9,7 +9,7 @@ macro_rules! scenes {
 }
 
 /// Scenes with a file of their own.
-const SCENES: [(&str, &str); 28] = scenes![
+const SCENES: [(&str, &str); 29] = scenes![
     "sphere-square",
     "sphere-square-hidden",
     "ellipsoid-square",
@@ -18,6 +18,7 @@ const SCENES: [(&str, &str); 28] = scenes![
     "spheres",
     "planar",
     "facing",
+    "parting",
     "bowl",
     "ellipsoid",
     "sphere-table",
@@ -102,12 +103,13 @@ const GRID_SIZES: &[(&str, &str)] = &[
     ("10k", "99"),
     ("30k", "172"),
     ("100k", "315"),
+    ("500k", "707"),
 ];
 
 /// Those of scenes that are looked at beside a family.
 const FEW_SIZES: &[(&str, &str)] = &[("1k", "31"), ("10k", "99")];
 
-const FAMILIES: [Family; 10] = [
+const FAMILIES: [Family; 11] = [
     Family {
         prefix: "sphere-grid-full-",
         template: include_str!("../../../scenes/template-sphere-grid-full.toml"),
@@ -162,6 +164,12 @@ const FAMILIES: [Family; 10] = [
         template: include_str!("../../../scenes/sphere-objects-1k.toml"),
         change: Change::Number("fov_y", "36.0"),
         sizes: &[("2", "66.034796"), ("4", "104.84913"), ("8", "137.915489")],
+    },
+    Family {
+        prefix: "sphere-near-",
+        template: include_str!("../../../scenes/sphere-objects-1k.toml"),
+        change: Change::Number("fov_y", "36.0"),
+        sizes: &[("2", "18.4596"), ("4", "9.289")],
     },
     Family {
         prefix: "square-small-",

@@ -130,6 +130,9 @@ pub struct Steadiness {
     pub evaluations: Option<f64>,
     /// Mean steps a search, from the second frame on.
     pub steps: Option<f64>,
+    /// Mean node tests a search or a mirror pixel in the last frame: what a hierarchy is worth by then that was
+    /// made for the first.
+    pub node_tests: Option<f64>,
 }
 
 /// Agreement with the truth in which mirrors are seen in mirrors.
@@ -161,6 +164,9 @@ pub struct Times {
     /// On the CPU before each frame, to build what it traces; `None` where nothing is built for
     /// each frame. Not part of the others.
     pub build: Option<Timing>,
+    /// The technique's own passes in a frame, without those that every technique's frame has, and what it builds on the
+    /// CPU before it; `None` without a usable clock.
+    pub own: Option<Timing>,
     /// Wall-clock time.
     pub wall: Wall,
 }

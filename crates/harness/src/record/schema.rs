@@ -11,7 +11,7 @@ use super::row::Record;
 
 /// Fields that this version of the record has not had from the start, wherever they stand: earlier
 /// ones lack them. So do the members of [`GROWING`].
-const LATER: [&str; 17] = [
+const LATER: [&str; 19] = [
     "resolved_by",
     "equal",
     "left_out",
@@ -29,6 +29,8 @@ const LATER: [&str; 17] = [
     "part",
     "bytes",
     "motion",
+    "own",
+    "node_tests",
 ];
 /// The field whose members are more from version to version.
 const GROWING: &str = "more";

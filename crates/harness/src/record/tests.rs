@@ -185,6 +185,7 @@ pub fn measured(scene: &str, technique: &str) -> Record {
             }),
             evaluations: Some(5.0),
             steps: Some(1.0),
+            node_tests: Some(3.0),
         }),
         against_full: Some(AgainstFull {
             object_agreement: Some(0.97),
@@ -200,6 +201,7 @@ pub fn measured(scene: &str, technique: &str) -> Record {
             ]),
             passes_reason: None,
             build: Timing::of(&[1.0, 2.0]),
+            own: Timing::of(&[3.0, 4.0, 5.0]),
             wall: Wall { median: 6.0 },
         }),
         mismatch: Some(Mismatch {

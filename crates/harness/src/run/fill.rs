@@ -103,6 +103,7 @@ fn times(prepare: f64, exact_points: Option<f64>, samples: &Samples) -> Option<T
         passes,
         passes_reason,
         build: Timing::of(&samples.builds()),
+        own: Timing::of(&samples.own()),
         wall: Wall { median: wall },
     })
 }

@@ -31,6 +31,8 @@ struct Seen {
     /// From the second frame on.
     evaluations: Vec<f64>,
     steps: Vec<f64>,
+    /// Of the last frame.
+    node_tests: Option<f64>,
 }
 
 /// Follows techniques over `frames` frames of the scene's motion, but those that estimate it, all of them through a frame
@@ -107,6 +109,7 @@ impl Seen {
             self.evaluations.extend(output.work.evaluations);
             self.steps.extend(output.work.steps);
         }
+        self.node_tests = output.work.node_tests;
         self.frames += 1;
         Ok(())
     }
@@ -148,6 +151,7 @@ impl Seen {
             still_ms: median(still),
             evaluations: mean(&self.evaluations),
             steps: mean(&self.steps),
+            node_tests: self.node_tests,
         })
     }
 }

@@ -4,7 +4,7 @@
 use std::time::{Duration, Instant};
 
 use catoptric_metrics::Timing;
-use catoptric_reflect::{FrameTime, Prepared, ReflectError};
+use catoptric_reflect::{FrameTime, Prepared, ReflectError, STAGE_PASSES};
 
 use crate::record::Status;
 
@@ -95,6 +95,22 @@ impl Samples {
             .collect()
     }
 
+    /// Time of the technique's own passes, and of what is built before them, of each frame whose passes are known;
+    /// empty where fewer than half of them are.
+    pub fn own(&self) -> Vec<f64> {
+        let of_frame = |frame: &FrameTime| {
+            let passes = frame.passes.as_ref()?.iter();
+            let own = passes.filter(|(name, _)| !STAGE_PASSES.contains(&name.as_str()));
+            let own: f64 = own.map(|(_, time)| time).sum();
+            Some(own + frame.build_ms.unwrap_or(0.0))
+        };
+        let known: Vec<f64> = self.frames.iter().filter_map(of_frame).collect();
+        match 2 * known.len() > self.frames.len() {
+            true => known,
+            false => Vec::new(),
+        }
+    }
+
     /// Median time of each pass over the samples that have it, or the most recent reason why
     /// there is none. Passes are only reported if more than half of the samples know theirs, and if
     /// their medians add up to that of the frame.
@@ -177,6 +193,23 @@ mod tests {
             Ok(vec![("search".to_owned(), 2.0), ("draw".to_owned(), 0.5)])
         );
         assert_eq!(samples.gpu(), Some(vec![1.5, 2.5, 9.5]));
+    }
+
+    #[test]
+    fn own_time_is_that_of_all_passes_but_the_stages_and_of_what_is_built() {
+        let timed = |build_ms| FrameTime {
+            build_ms,
+            ..frame(
+                Some(9.0),
+                Some(vec![("gbuffer", 4.0), ("sift", 2.0), ("tiles", 3.0)]),
+            )
+        };
+        let samples = |frames: &[FrameTime]| Samples {
+            frames: frames.to_vec(),
+        };
+        assert_eq!(samples(&[timed(None), timed(Some(1.5))]).own(), [5.0, 6.5]);
+        let unknown = || frame(Some(9.0), None);
+        assert_eq!(samples(&[timed(None), unknown(), unknown()]).own(), []);
     }
 
     #[test]

@@ -39,6 +39,7 @@ mod claims;
 mod control;
 mod cubemap;
 mod estalella;
+mod exact;
 mod figure;
 mod fit;
 pub mod ledger;
@@ -68,7 +69,7 @@ pub use series::{Ask, Point, Series};
 pub use suite::{Asked, Budget, Layout, Picture, Studio, Suite};
 
 /// Every suite, by name.
-pub const SUITES: [&Suite; 8] = [
+pub const SUITES: [&Suite; 9] = [
     &search::SUITE,
     &tessellation::SUITE,
     &estalella::SUITE,
@@ -76,6 +77,7 @@ pub const SUITES: [&Suite; 8] = [
     &cubemap::FULL,
     &control::SUITE,
     &motion::SUITE,
+    &exact::SUITE,
     &papers::SUITE,
 ];
 

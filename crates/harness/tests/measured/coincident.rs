@@ -102,12 +102,14 @@ fn a_mirror_written_for_both_sides_reflects_on_both() {
                 for technique in [
                     "ray-trace",
                     "ray-trace(gbuffer=mesh)",
+                    "beams(bounces=4)",
+                    "beams(bounces=4,gbuffer=mesh)",
                     "linear",
                     "cubemap-trace(size=64)",
                 ] {
                     let drawn = drawn(gpu, &scene, technique);
                     assert_eq!(count(&drawn, Status::Back), 0, "{name} {index} {technique}");
-                    if technique == "ray-trace" {
+                    if ["ray-trace", "beams(bounces=4)"].contains(&technique) {
                         let unlike = unlike(&truth, &drawn);
                         assert!(unlike <= EDGE, "{name} {index}: {unlike} pixels");
                     }
@@ -140,10 +142,12 @@ fn flat_mirrors_back_to_back_reflect_on_both_sides_in_any_order() {
         assert_eq!(count(&truth, Status::Back), 0);
         assert!(count(&truth, Status::Resolved) > 500);
         if let Some(gpu) = &gpu {
-            let drawn = drawn(gpu, &scene, "ray-trace");
-            assert_eq!(count(&drawn, Status::Back), 0);
-            let unlike = unlike(&truth, &drawn);
-            assert!(unlike <= EDGE, "{unlike} pixels");
+            for technique in ["ray-trace", "beams(bounces=4)"] {
+                let drawn = drawn(gpu, &scene, technique);
+                assert_eq!(count(&drawn, Status::Back), 0);
+                let unlike = unlike(&truth, &drawn);
+                assert!(unlike <= EDGE, "{technique}: {unlike} pixels");
+            }
         }
     }
 }

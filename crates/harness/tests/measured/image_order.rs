@@ -79,6 +79,43 @@ fn more_bounces_come_nearer_to_the_truth_with_mirrors_in_mirrors() {
     assert!(full(&rows[1]) > number(&rows[1], "/object_agreement"));
 }
 
+/// Pixels that show another object than the truth, and how many may: rounding at edges.
+fn wrong_in_full(row: &Value) -> (f64, f64) {
+    let pixels = number(row, "/coverage/mirror_pixels");
+    let wrong = (1.0 - number(row, "/against_full/object_agreement")) * pixels;
+    (wrong.round(), (1e-4 * pixels).max(2.0))
+}
+
+#[test]
+fn beams_with_bounces_show_mirrors_in_mirrors_as_the_truth_does() {
+    if !gpu_or_skip() {
+        return;
+    }
+    // As many as the truth `full` has where nothing else is asked for.
+    let bounces = catoptric::options::Common::default().bounces;
+    let more = format!("beams(bounces={bounces})");
+    let scenes = [
+        "facing",
+        "bowl",
+        "box",
+        "spheres",
+        "room",
+        "torus",
+        "saddle",
+        "kitchen",
+        "faceted",
+        "mirrors-8",
+    ];
+    let rows = compare(&scenes, &[&more]);
+    for row in &rows {
+        let (wrong, allowed) = wrong_in_full(row);
+        assert!(wrong <= allowed, "{}: {wrong} pixels", row["scene"]);
+    }
+    // With one reflection the same scenes are far from it.
+    let (wrong, allowed) = wrong_in_full(&compare(&["facing"], &["beams"])[0]);
+    assert!(wrong > 100.0 * allowed, "{wrong}");
+}
+
 #[test]
 fn texels_after_a_clear_one_show_what_samples_after_a_clear_one_do() {
     if !gpu_or_skip() {

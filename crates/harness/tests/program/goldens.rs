@@ -28,6 +28,7 @@ const GOLDENS: &[(&str, &str)] = &[
     ("planar", "planar"),
     ("ellipsoid", "ray-trace"),
     ("kitchen", "beams"),
+    ("facing", "beams(bounces=4)"),
     ("ellipsoid", "environment-map(size=64)"),
     ("bowl", "cubemap-trace(size=64,accept=continuous,bounces=3)"),
     ("moving-saddle-all", "motion-none"),

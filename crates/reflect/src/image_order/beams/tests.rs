@@ -1,5 +1,5 @@
-use catoptric_scene::{Material, Mesh, Paint, Random, Scene};
-use glam::{DVec2, Vec3};
+use catoptric_scene::{CameraPath, Material, Mesh, Motion, Move, Paint, Random, Scene, Subject};
+use glam::{DVec2, DVec3, Vec3};
 
 use super::geometry::Placing;
 use super::paths::Bounce;
@@ -34,12 +34,17 @@ fn unlike(gpu: &Gpu, scene: &Scene, technique: &str) -> usize {
 }
 
 /// What is drawn of a scene, with lists of at most `room` bytes, and what is counted.
-fn drawn(gpu: &Gpu, scene: &Scene, room: u64) -> (Vec<[f32; 4]>, Tally, usize, Stage) {
+fn drawn(
+    gpu: &Gpu,
+    scene: &Scene,
+    room: u64,
+    reflections: u32,
+) -> (Vec<[f32; 4]>, Tally, usize, Stage) {
     let stage = stage(gpu, scene, SIZE);
     let wanted = Wanted {
         tile: Tile::Two,
         room,
-        reflections: 1,
+        reflections,
     };
     let beams = Ready::new(gpu, &stage, wanted).expect("fits");
     gpu.run(|frame| {
@@ -106,7 +111,7 @@ fn every_pixel_sees_what_the_ray_tracer_sees() {
 fn the_traversal_takes_what_its_twin_takes() {
     let Some(gpu) = gpu_or_skip() else { return };
     for name in ["sphere-table", "bowl", "spheres"] {
-        let (_, counted, _, stage) = drawn(&gpu, &scene(name), lists::ROOM);
+        let (_, counted, _, stage) = drawn(&gpu, &scene(name), lists::ROOM, 1);
         let expected = twin::tally(&gpu, &stage);
         let pairs = [
             (counted.cluster_tests, expected.cluster_tests),
@@ -130,12 +135,6 @@ fn the_traversal_takes_what_its_twin_takes() {
 fn clusters_that_are_sent_down_in_slices_give_the_same_picture() {
     let Some(gpu) = gpu_or_skip() else { return };
     let scene = scene("spheres");
-    let (whole, counted, slices, _) = drawn(&gpu, &scene, lists::ROOM);
-    assert_eq!(slices, 1);
-    // 16 nodes of 32 × 32 pixels with room for 50 clusters each.
-    let (sliced, again, slices, _) = drawn(&gpu, &scene, 16 * 50 * 4);
-    assert_eq!(slices, 8);
-    assert!(whole == sliced);
     let took = |tally: &Tally| {
         (
             tally.cluster_tests,
@@ -144,7 +143,63 @@ fn clusters_that_are_sent_down_in_slices_give_the_same_picture() {
             tally.exact,
         )
     };
-    assert_eq!(took(&counted), took(&again));
+    for reflections in [1, 3] {
+        let (whole, counted, slices, _) = drawn(&gpu, &scene, lists::ROOM, reflections);
+        assert_eq!(slices, 1);
+        // 16 nodes of 32 × 32 pixels with room for 50 clusters each.
+        let (sliced, again, slices, _) = drawn(&gpu, &scene, 16 * 50 * 4, reflections);
+        assert_eq!(slices, 8);
+        assert!(whole == sliced);
+        assert_eq!(took(&counted), took(&again));
+    }
+}
+
+#[test]
+fn paths_go_on_as_far_as_they_are_asked_to() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    let scene = scene("facing");
+    let longest = |technique: &str| {
+        let spec = parse(technique).expect("a technique");
+        let mut prepared = prepare(&gpu, &spec, &scene, SIZE).expect("fits");
+        let reflected = prepared.render().expect("renders").frame.reflected;
+        let bounces = reflected.expect("all layers").bounces;
+        bounces.map(|bounces| bounces.pixels().iter().max().copied())
+    };
+    assert_eq!(longest("beams"), None);
+    for bounces in [2, 3, 5] {
+        let technique = format!("beams(bounces={bounces})");
+        assert_eq!(longest(&technique), Some(Some(bounces)));
+    }
+}
+
+#[test]
+fn moved_mirrors_are_seen_in_mirrors_where_they_are() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    for name in ["facing", "spheres", "room"] {
+        let mut scene = scene(name);
+        let moves = (0..scene.mirrors.len()).map(|index| Move {
+            subject: Subject::Mirror(index),
+            rotate_deg: DVec3::new(0.0, 2.0, 0.0),
+            about: DVec3::ZERO,
+            translate: DVec3::new(0.05, 0.02, 0.01),
+        });
+        scene.motion = Some(Motion {
+            frames: 2,
+            growth: 1.0,
+            camera: CameraPath::Still,
+            moves: moves.collect(),
+        });
+        let moved = scene.at(1);
+        let technique = "beams(bounces=3)";
+        let spec = parse(technique).expect("a technique");
+        let mut prepared = prepare(&gpu, &spec, &scene, SIZE).expect("fits");
+        let before = prepared.render().expect("renders").frame.reflected;
+        prepared.update(&moved).expect("the same scene");
+        let after = prepared.render().expect("renders").frame.reflected;
+        let [before, after] = [before, after].map(|layers| layers.expect("all layers").id);
+        assert_ne!(before.pixels(), after.pixels(), "{name}");
+        assert_eq!(ids(&gpu, &moved, technique), after.pixels(), "{name}");
+    }
 }
 
 #[test]

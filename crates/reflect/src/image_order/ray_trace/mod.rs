@@ -141,6 +141,18 @@ enum Structure {
     Hardware(Box<Hardware>),
 }
 
+impl Structure {
+    /// Bytes of nodes and triangles; `None` where the driver has them.
+    fn bytes(&self) -> Option<u64> {
+        let (nodes, triangles) = match self {
+            Self::Wide(wide) => (&wide.nodes, &wide.triangles),
+            Self::Refitted(refitted) => (&refitted.nodes, &refitted.triangles),
+            Self::Hardware(_) => return None,
+        };
+        Some(nodes.size() + triangles.size())
+    }
+}
+
 impl Rays {
     /// Rays for those pixels alone where the image `left_open` has −1 in w.
     pub(crate) fn of_pixels(
@@ -337,6 +349,7 @@ impl ImageOrder for Rays {
         Work {
             node_tests: mean(0),
             evaluations: mean(1),
+            bytes: self.structure.bytes().map(|bytes| bytes as f64),
             ..Work::default()
         }
     }
@@ -407,6 +420,69 @@ mod tests {
             // Rays through an edge may fall to either side.
             assert!(other <= 2, "{name}: {other} pixels");
         }
+    }
+
+    /// Ids at the mirrors' pixels and node tests a pixel, frame by frame.
+    fn followed(gpu: &Gpu, scene: &Scene, name: &str, frames: &[u32]) -> Vec<(Vec<u32>, f64)> {
+        let spec = parse(name).expect("a technique");
+        let mut prepared = crate::prepare(gpu, &spec, scene, [96, 72]).expect("fits");
+        let frames = frames.iter().map(|frame| {
+            prepared.update(&scene.at(*frame)).expect("the same scene");
+            let output = prepared.render().expect("renders");
+            let seen = output.frame.reflected.expect("all layers").id;
+            let nodes = output.work.node_tests.expect("counted");
+            (seen.pixels().to_vec(), nodes)
+        });
+        frames.collect()
+    }
+
+    #[test]
+    fn a_refitted_hierarchy_shows_what_a_new_one_does() {
+        let Some(gpu) = gpu_or_skip() else { return };
+        for name in [
+            "moving-ball-object",
+            "parting",
+            "sphere-objects-1k",
+            "ellipsoid",
+        ] {
+            let scene = scene(name);
+            let last = scene.frames() - 1;
+            let frames = [0, last / 2, last, 0];
+            let [built, refitted] = ["ray-trace", "ray-trace(update=refit)"]
+                .map(|technique| followed(&gpu, &scene, technique, &frames));
+            for (frame, (built, refitted)) in built.iter().zip(&refitted).enumerate() {
+                assert!(built.0.iter().any(|id| *id > 0));
+                assert_eq!(built.0, refitted.0, "{name}, {frame}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_refitted_hierarchy_is_worse_where_neighbours_part() {
+        let Some(gpu) = gpu_or_skip() else { return };
+        let scene = scene("parting");
+        let frames = [0, scene.frames() - 1];
+        let [built, refitted] = ["ray-trace", "ray-trace(update=refit)"]
+            .map(|technique| followed(&gpu, &scene, technique, &frames));
+        let worse = |frame: usize| refitted[frame].1 / built[frame].1;
+        println!("{} at first, {} at last", worse(0), worse(1));
+        // Boxes are rounded otherwise.
+        assert!((0.9..1.1).contains(&worse(0)), "{}", worse(0));
+        assert!(worse(1) > 1.3, "{}", worse(1));
+    }
+
+    #[test]
+    fn a_refit_is_a_pass_of_the_frame() {
+        let Some(gpu) = gpu_or_skip() else { return };
+        let scene = scene("sphere-square");
+        let spec = parse("ray-trace(update=refit)").expect("a technique");
+        let mut prepared = crate::prepare(&gpu, &spec, &scene, [32, 24]).expect("fits");
+        let time = prepared.time_frame().expect("renders");
+        assert_eq!(time.build_ms, None);
+        let passes = time.passes.unwrap_or_default();
+        assert!(passes.is_empty() || passes.iter().any(|(name, _)| name == "refit"));
+        let hardware = parse("ray-trace(update=refit,traversal=hardware)").expect("a technique");
+        assert_ne!(crate::supports(&hardware, &scene), crate::Support::Yes);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! What the suite decides.
 
 use super::crossover;
-use super::{BEAMS, MAPS, REBUILT, REFIT, SEARCHED, STATIC};
+use super::labels::{BEAMS, MAPS, REBUILT, REFIT, SEARCHED, STATIC};
 use crate::suites::claims::make::{claim, grows, ratio, value};
 use crate::suites::claims::{
     Case, Claim, EVERY, Interval, Limit, Measure, Noise, Numbers, Paper, Place, Rule, Shown, Term,

@@ -8,6 +8,7 @@
 
 mod claims;
 mod crossover;
+mod labels;
 
 use crate::show::plot::Axis;
 use crate::suites::figure::{Figure, Quantity};
@@ -17,6 +18,8 @@ use crate::suites::paths::{
 };
 use crate::suites::series::{Point, Series};
 use crate::suites::suite::{Asked, Budget, Layout, Suite};
+
+use labels::{BEAMS, HARDWARE, HARDWARE_REBUILT, MAPS, REBUILT, REFIT, SEARCHED, STATIC};
 
 /// The suite.
 pub const SUITE: Suite = Suite {
@@ -34,15 +37,6 @@ pub const SUITE: Suite = Suite {
 
 /// Of all pictures: the largest scenes take a software adapter seconds a frame.
 const SIZE: [u32; 2] = [160, 120];
-
-const BEAMS: &str = "beams";
-const STATIC: &str = "rays, built once";
-const REFIT: &str = "rays, refitted";
-const REBUILT: &str = "rays, built for every frame";
-const HARDWARE: &str = "hardware, built once";
-const HARDWARE_REBUILT: &str = "hardware, built for every frame";
-const MAPS: &str = "cube maps, traced";
-const SEARCHED: &str = "vertices, searched";
 
 /// Label and technique.
 const ALL: [(&str, &str); 8] = [

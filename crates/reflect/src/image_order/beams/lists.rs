@@ -7,9 +7,8 @@
 use glam::UVec2;
 
 use super::geometry::Geometry;
-use super::paths::TOUCHING;
 use super::pyramid::Pyramid;
-use super::settings::Settings;
+use super::settings::{Settings, TOUCHING};
 use super::source::Source;
 use super::tally::Tally;
 use super::tile::Tile;

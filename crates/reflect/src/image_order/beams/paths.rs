@@ -13,6 +13,7 @@ use encase::ShaderType;
 
 use super::lists::Lists;
 use super::mirrors::Mirrors;
+use super::settings::TOUCHING;
 use super::source::Source;
 use crate::error::ReflectError;
 use crate::gpu::{
@@ -22,10 +23,6 @@ use crate::gpu::{
 use crate::stage::Stage;
 use crate::stage::extent::diagonal;
 use crate::stage::variant::Variant;
-
-/// Distance, as a share of the scene's extent, within which a ray starts on the plane of a triangle: a few
-/// rounding steps of single precision.
-pub(super) const TOUCHING: f32 = 1e-6;
 
 /// Twin of `Bounce` in `beams/bounce.wesl`.
 #[derive(Clone, Copy, Debug, ShaderType)]

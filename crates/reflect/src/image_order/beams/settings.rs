@@ -3,6 +3,10 @@
 use encase::ShaderType;
 use glam::UVec2;
 
+/// Distance, as a share of the scene's extent, within which a ray starts on the plane of a triangle: a few
+/// rounding steps of single precision.
+pub(super) const TOUCHING: f32 = 1e-6;
+
 /// Twin of `Settings` in `beams/node.wesl`.
 #[derive(Clone, Copy, Debug, ShaderType)]
 pub(super) struct Settings {

@@ -76,10 +76,10 @@ struct Surface {
     @builtin(position) clip: vec4f,
     @location(0) color: vec3f,
 }
+// A mirror's point and normal; elsewhere nothing, and the colour with w 1.
 struct GBuffer {
-    @location(0) color: vec4f,
-    @location(1) position: vec4f,
-    @location(2) normal: vec4f,
+    @location(0) position: vec4f,
+    @location(1) normal: vec4f,
     @builtin(frag_depth) depth: f32,
 }
 
@@ -99,7 +99,7 @@ fn surface(@location(0) position: vec3f, @location(1) color: vec3f) -> Surface {
 
 @fragment
 fn object(in: Surface) -> GBuffer {
-    return GBuffer(vec4f(in.color, 1.0), vec4f(), vec4f(), in.clip.z);
+    return GBuffer(vec4f(), vec4f(in.color, 1.0), in.clip.z);
 }
 
 @vertex
@@ -120,10 +120,10 @@ fn ball(@builtin(position) pixel: vec4f) -> GBuffer {
     let normal = normalize(closest - sqrt(square) * direction);
     let position = eye.ball.xyz + eye.ball.w * normal;
     // beams: w above 0 says that the pixel shows a mirror.
-    return GBuffer(vec4f(), vec4f(position, 1.0), vec4f(normal, 0.0), NEAR / (eye.position.z - position.z));
+    return GBuffer(vec4f(position, 1.0), vec4f(normal, 0.0), NEAR / (eye.position.z - position.z));
 }
 
-@group(1) @binding(0) var seen_color: texture_2d<f32>;
+@group(1) @binding(0) var seen_normal: texture_2d<f32>;
 @group(1) @binding(1) var seen_position: texture_2d<f32>;
 @group(1) @binding(2) var hits: texture_2d<u32>;
 @group(1) @binding(3) var<storage, read> vertices: array<f32>;
@@ -137,7 +137,7 @@ fn color_of(vertex: u32) -> vec3f {
 @fragment
 fn picture(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     let texel = vec2i(pixel.xy);
-    let color = textureLoad(seen_color, texel, 0);
+    let color = textureLoad(seen_normal, texel, 0);
     if textureLoad(seen_position, texel, 0).w == 0.0 {
         return vec4f(select(eye.sky, color.xyz, color.w > 0.0), 1.0);
     }
@@ -164,7 +164,6 @@ struct Renderer {
     vertices: wgpu::Buffer,
     indices: wgpu::Buffer,
     index_count: u32,
-    color: wgpu::Texture,
     position: wgpu::Texture,
     normal: wgpu::Texture,
     depth: wgpu::Texture,
@@ -218,7 +217,6 @@ impl Renderer {
         let pipelines = Pipelines::new(&device, [&eye_layout, &seen_layout]);
         let read = wgpu::TextureUsages::TEXTURE_BINDING;
         Self {
-            color: texture(LINEAR, read),
             position: texture(LINEAR, read),
             normal: texture(LINEAR, read),
             depth: texture(DEPTH, wgpu::TextureUsages::empty()),
@@ -226,8 +224,8 @@ impl Renderer {
             index_count: indices.len() as u32 * 3,
             vertices: vertex_buffer,
             indices: index_buffer,
-            object: pipelines.make("surface", "object", 3),
-            ball: pipelines.make("everywhere", "ball", 3),
+            object: pipelines.make("surface", "object", 2),
+            ball: pipelines.make("everywhere", "ball", 2),
             shade: pipelines.make("everywhere", "picture", 1),
             eye: group(&device, &eye_layout, &[numbers.as_entire_binding()]),
             seen_layout,
@@ -240,7 +238,7 @@ impl Renderer {
     fn draw(&self, beams: &embed::Beams) {
         let view = |texture: &wgpu::Texture| texture.create_view(&Default::default());
         let mut encoder = self.device.create_command_encoder(&Default::default());
-        let targets = [&self.color, &self.position, &self.normal].map(view);
+        let targets = [&self.position, &self.normal].map(view);
         let depth = view(&self.depth);
         {
             let mut pass = begin(&mut encoder, &targets, Some(&depth));
@@ -254,9 +252,9 @@ impl Renderer {
         }
         // beams: between the pass that draws the G-buffer and the one that shades.
         beams.record(&mut encoder, EYE);
-        let [color, position, hits] = [&self.color, &self.position, beams.hits()].map(view);
+        let [normal, position, hits] = [&self.normal, &self.position, beams.hits()].map(view);
         let seen = [
-            wgpu::BindingResource::TextureView(&color),
+            wgpu::BindingResource::TextureView(&normal),
             wgpu::BindingResource::TextureView(&position),
             wgpu::BindingResource::TextureView(&hits),
             self.vertices.as_entire_binding(),

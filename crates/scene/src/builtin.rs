@@ -103,6 +103,17 @@ const GRID_SIZES: &[(&str, &str)] = &[
     ("10k", "99"),
     ("30k", "172"),
     ("100k", "315"),
+];
+
+/// Those, and one of a million triangles.
+const FULL_SIZES: &[(&str, &str)] = &[
+    ("100", "9"),
+    ("300", "16"),
+    ("1k", "31"),
+    ("3k", "54"),
+    ("10k", "99"),
+    ("30k", "172"),
+    ("100k", "315"),
     ("500k", "707"),
 ];
 
@@ -114,7 +125,7 @@ const FAMILIES: [Family; 11] = [
         prefix: "sphere-grid-full-",
         template: include_str!("../../../scenes/template-sphere-grid-full.toml"),
         change: Change::Number("n", "8"),
-        sizes: GRID_SIZES,
+        sizes: FULL_SIZES,
     },
     Family {
         prefix: "sphere-grid-",

@@ -132,7 +132,7 @@ pub struct Steadiness {
     pub steps: Option<f64>,
     /// Mean node tests a search or a mirror pixel in the last frame: what a hierarchy is worth by then that was
     /// made for the first.
-    pub node_tests: Option<f64>,
+    pub moved_node_tests: Option<f64>,
 }
 
 /// Agreement with the truth in which mirrors are seen in mirrors.

@@ -30,7 +30,7 @@ const LATER: [&str; 19] = [
     "bytes",
     "motion",
     "own",
-    "node_tests",
+    "moved_node_tests",
 ];
 /// The field whose members are more from version to version.
 const GROWING: &str = "more";

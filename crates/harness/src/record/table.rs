@@ -253,7 +253,7 @@ pub const ENTRIES: &[Entry] = &[
         "Mean evaluations a search, from the second frame on."), false),
     One(row("temporal.steps", "moving steps", "steps, from the second frame", Plain, Low,
         "Mean steps a search, from the second frame on."), false),
-    One(row("temporal.node_tests", "moved nodes", "node tests in the last frame", Plain, Low,
+    One(row("temporal.moved_node_tests", "moved nodes", "node tests in the last frame", Plain, Low,
         "Mean node tests a search or a mirror pixel in the last frame of the motion."), false),
     One(row("motion.pairs", "pairs of frames", "pairs of frames", Count, Neither,
         "Pairs of frames over which the motion of reflections was judged."), false),

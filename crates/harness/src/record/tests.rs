@@ -185,7 +185,7 @@ pub fn measured(scene: &str, technique: &str) -> Record {
             }),
             evaluations: Some(5.0),
             steps: Some(1.0),
-            node_tests: Some(3.0),
+            moved_node_tests: Some(3.0),
         }),
         against_full: Some(AgainstFull {
             object_agreement: Some(0.97),

@@ -151,7 +151,7 @@ impl Seen {
             still_ms: median(still),
             evaluations: mean(&self.evaluations),
             steps: mean(&self.steps),
-            node_tests: self.node_tests,
+            moved_node_tests: self.node_tests,
         })
     }
 }

@@ -59,12 +59,12 @@
 use glam::Vec3;
 use thiserror::Error;
 
-use super::Tile;
 use super::clusters::of_triangles;
 use super::geometry::{Geometry, Strided};
 use super::lists::{self, Lists, Wanted};
 use super::pyramid::Pyramid;
 use super::source::Source;
+use super::tile::Tile;
 use crate::error::ReflectError;
 use crate::gpu::{
     FLOAT4, Gpu, Kernel, Recorder, Slot, compute, group, layout, module, set_uniform,

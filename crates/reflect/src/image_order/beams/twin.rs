@@ -2,9 +2,10 @@
 
 use glam::Vec3;
 
-use super::clusters::{CLUSTER, clusters, without_coincident};
+use super::clusters::{CLUSTER, clusters};
 use super::tally::Tally;
 use crate::gpu::Gpu;
+use crate::image_order::coincident::without_coincident;
 use crate::stage::Stage;
 use crate::stage::extent::diagonal;
 use crate::stage::geometry::positions;
@@ -150,7 +151,7 @@ pub(super) fn tally(gpu: &Gpu, stage: &Stage) -> Tally {
         Vec3::new(x, y, z)
     };
     let all = clusters(scene, &[]);
-    let seen = without_coincident(scene, &all).unwrap_or(all);
+    let seen = without_coincident(scene, &all, 0).unwrap_or(all);
     let boxes: Vec<[Vec3; 2]> = seen
         .iter()
         .map(|[a, b, c, _]| {

@@ -42,8 +42,6 @@ enum Read {
     Refinement(fn(&mut Settled<'_>) -> Box<dyn refine::Recipe>),
     ImageOrder(fn(&mut Settled<'_>) -> image_order::Asked),
     Motion(fn(&mut Settled<'_>) -> motion::Asked),
-    /// It is not built yet.
-    Missing,
 }
 
 const fn search<T: Named + search::Recipe + 'static>() -> Technique {
@@ -100,24 +98,11 @@ const fn introduced(info: Info, family: Family) -> TechniqueInfo {
         family,
         paper: info.paper,
         options: [&[]; 2],
-        missing: None,
         properties: |_| Properties::NONE,
     }
 }
 
-/// A technique of ours that is listed before it is built.
-const fn missing(family: Family, name: &'static str, what: &'static str) -> Technique {
-    let paper = "this project";
-    Technique {
-        info: TechniqueInfo {
-            missing: Some("not built yet"),
-            ..introduced(Info { name, what, paper }, family)
-        },
-        read: Read::Missing,
-    }
-}
-
-/// All techniques, those not built yet included, for listing.
+/// All techniques, for listing.
 pub fn list() -> Vec<&'static TechniqueInfo> {
     TECHNIQUES.iter().map(|technique| &technique.info).collect()
 }
@@ -156,5 +141,5 @@ pub(crate) fn asked(spec: &Spec) -> Asked {
 fn read(options: &spec::Options) -> Read {
     let mut techniques = TECHNIQUES.iter();
     let found = techniques.find(|technique| technique.info.name == options.name());
-    found.map_or(Read::Missing, |technique| technique.read)
+    found.expect("a technique of the registry").read
 }

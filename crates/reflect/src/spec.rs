@@ -37,14 +37,6 @@ pub enum SpecError {
         /// The nearest name, as a question, or all there are.
         hint: String,
     },
-    /// A technique that is listed and not built yet.
-    #[error("`{name}` is not available: {reason}")]
-    Unavailable {
-        /// Its name.
-        name: &'static str,
-        /// Why.
-        reason: &'static str,
-    },
     /// A refinement of a technique that takes none.
     #[error("`{name}` takes no refinement; refinements go with a search")]
     Alone {
@@ -101,7 +93,7 @@ fn technique(
         (table.iter().copied()).filter(move |info| is_refinement(info) == refines)
     };
     let found = of(refines).find(|info| info.name == name);
-    let found = found.ok_or_else(|| {
+    found.ok_or_else(|| {
         let refinement = format!("+{}", name.trim_start_matches('+'));
         let as_refinement = of(true).any(|info| info.name == refinement);
         SpecError::Technique {
@@ -112,14 +104,7 @@ fn technique(
                 hint(name, of(refines).map(|info| info.name))
             },
         }
-    })?;
-    match found.reason() {
-        Some(reason) => Err(SpecError::Unavailable {
-            name: found.name,
-            reason,
-        }),
-        None => Ok(found),
-    }
+    })
 }
 
 /// Parses the name of a technique of a table.
@@ -359,7 +344,7 @@ mod tests {
 
     #[test]
     fn every_name_that_a_default_gives_is_short() {
-        for info in list().into_iter().filter(|info| info.reason().is_none()) {
+        for info in list() {
             let all: Vec<_> = info
                 .options()
                 .map(|option| format!("{}={}", option.name, option.default()))

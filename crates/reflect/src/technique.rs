@@ -25,8 +25,6 @@ pub struct TechniqueInfo {
     pub paper: &'static str,
     /// Groups of options, in display order: its own, then those of all its family.
     pub(crate) options: [&'static [&'static [OptionInfo]]; 2],
-    /// Why it cannot be used.
-    pub(crate) missing: Option<&'static str>,
     /// What it is like with these options.
     pub(crate) properties: fn(&mut Settled<'_>) -> Properties,
 }
@@ -69,11 +67,6 @@ impl fmt::Display for Family {
 }
 
 impl TechniqueInfo {
-    /// Why it cannot be used; `None` if it can.
-    pub fn reason(&self) -> Option<&'static str> {
-        self.missing
-    }
-
     /// All options, in display order.
     pub fn options(&self) -> impl Iterator<Item = &'static OptionInfo> + Clone + use<> {
         self.options.into_iter().flatten().copied().flatten()

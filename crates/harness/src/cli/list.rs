@@ -102,7 +102,7 @@ fn techniques(
             };
             let options: Vec<Value> = info.options().map(option).collect();
             json!({ "name": info.name, "what": info.what, "family": info.family.to_string(), "paper": info.paper,
-                    "options": options, "available": info.reason().is_none(), "reason": info.reason() })
+                    "options": options, "available": true, "reason": null })
         })
         .collect();
     if print::format(common) == Format::Json {
@@ -138,9 +138,7 @@ fn overview(infos: &[&TechniqueInfo], columns: usize) -> String {
                 .is_some_and(|(known, _)| known == name)
         });
         for info in members {
-            let missing = info.reason().map(|reason| format!(" ({reason})"));
-            let what = format!("{}{}", info.what, missing.unwrap_or_default());
-            line(&format!("  {:widest$}  {what}", info.name));
+            line(&format!("  {:widest$}  {}", info.name, info.what));
         }
         line("");
     }
@@ -162,9 +160,6 @@ fn explanation(info: &TechniqueInfo, columns: usize) -> String {
         &format!("family: {}: {}", info.family, info.family.what()),
     );
     paragraph(0, &format!("paper: {}", info.paper));
-    if let Some(reason) = info.reason() {
-        paragraph(0, &format!("not available: {reason}"));
-    }
     if info.options().next().is_none() {
         paragraph(0, "It has no options.");
         return text;

@@ -56,9 +56,7 @@ pub fn parse(text: &str) -> anyhow::Result<Spec> {
     }
     match catoptric_reflect::parse(text) {
         // These name what is wrong themselves.
-        Err(error @ (SpecError::Technique { .. } | SpecError::Unavailable { .. })) => {
-            Err(error.into())
-        }
+        Err(error @ SpecError::Technique { .. }) => Err(error.into()),
         parsed => parsed.with_context(|| format!("technique `{text}`")),
     }
 }

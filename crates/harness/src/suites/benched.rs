@@ -127,10 +127,10 @@ pub fn benches() -> Vec<Bench> {
     groups.concat()
 }
 
-/// Built techniques of a family.
-fn built(family: Family) -> impl Iterator<Item = &'static TechniqueInfo> {
+/// Techniques of a family.
+fn of(family: Family) -> impl Iterator<Item = &'static TechniqueInfo> {
     let all = list().into_iter();
-    all.filter(move |info| info.family == family && info.reason().is_none())
+    all.filter(move |info| info.family == family)
 }
 
 fn limit(technique: &str) -> Limit {
@@ -153,7 +153,7 @@ fn takes(info: &TechniqueInfo, option: &str, word: &str) -> bool {
 
 /// Every search, as published and in the variants that are compared, by growing numbers of vertices.
 fn linear_vs_hierarchy() -> Vec<Bench> {
-    let techniques: Vec<String> = built(Family::Search)
+    let techniques: Vec<String> = of(Family::Search)
         .flat_map(|info| {
             let variants = SEARCH_VARIANTS.iter();
             let taken = variants.filter(|(option, word)| takes(info, option, word));
@@ -177,7 +177,7 @@ fn adaptive_vs_full() -> Vec<Bench> {
     let mut benches = Vec::new();
     for scene in ["sphere-square", "sphere-table"] {
         benches.push(bench(scene, "linear".to_owned(), 0));
-        for info in built(Family::Refinement) {
+        for info in of(Family::Refinement) {
             let name = info.name;
             if !info.options().any(|option| option.name == "level") {
                 // What interpolates between the vertices is made for finer meshes than these.
@@ -199,7 +199,7 @@ fn adaptive_vs_full() -> Vec<Bench> {
 
 /// Every technique of image order, where it applies.
 fn image_order() -> Vec<Bench> {
-    let techniques: Vec<String> = built(Family::ImageOrder)
+    let techniques: Vec<String> = of(Family::ImageOrder)
         .map(|info| info.name.to_owned())
         .collect();
     product(
@@ -351,7 +351,7 @@ mod tests {
             .iter()
             .map(|bench| bench.technique.as_str())
             .collect();
-        for info in list().into_iter().filter(|info| info.reason().is_none()) {
+        for info in list() {
             let names = |text: &&str| text.contains(info.name);
             assert!(timed.iter().any(names), "{}", info.name);
         }

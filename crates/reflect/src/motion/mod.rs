@@ -266,7 +266,7 @@ impl Technique for Estimator {
     }
 
     fn output(&self, gpu: &Gpu) -> Output {
-        let mut frame = self.now.layers(gpu);
+        let mut frame = self.now.layers(gpu, None);
         let texels = gpu.read_texture(&self.motion);
         let status = frame.reflected.as_ref().map(|layers| &layers.status);
         // Elsewhere the image holds what earlier frames have left there.

@@ -183,6 +183,7 @@ mod tests {
                 distance: Image::filled(SIZE, 1.0),
                 bounces: None,
             }),
+            motion: None,
             names: Vec::new(),
         }
     }

@@ -43,7 +43,7 @@ fn gltf(uri: Option<String>) -> String {
 /// The same as binary glTF.
 fn glb() -> Vec<u8> {
     let mut text = gltf(None).into_bytes();
-    while text.len() % 4 > 0 {
+    while !text.len().is_multiple_of(4) {
         text.push(b' ');
     }
     let mut bytes = b"glTF\x02\0\0\0".to_vec();

@@ -5,7 +5,7 @@ use std::path::Path;
 use catoptric::import::{self, Choice};
 use catoptric_frame::Frame;
 use catoptric_reference::{RenderOptions, Tracer, Truth};
-use catoptric_scene::{LoadOptions, MirrorShape, Scene, Shape};
+use catoptric_scene::{LoadOptions, Scene, Shape};
 use glam::{DVec3, Vec3};
 
 use crate::support::{catoptric, code, refused, stderr};

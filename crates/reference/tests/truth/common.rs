@@ -57,6 +57,7 @@ pub fn scene(camera: Camera, objects: Vec<Object>, mirrors: Vec<Shape>) -> Scene
         shape,
         tessellation: 64,
         cubemaps: Vec::new(),
+        proxies: Vec::new(),
         pose: catoptric_scene::Pose::REST,
     };
     Scene {

@@ -16,7 +16,7 @@ fn scenes() -> Vec<Scene> {
     list::builtin(&options)
         .into_iter()
         .filter(|info| info.available && info.vertices <= 20_000)
-        .filter(|info| !builtin::is_single_step(&info.name))
+        .filter(|info| !catoptric_scene::builtin::is_single_step(&info.name))
         .map(|info| Scene::load(&info.name, &options).unwrap())
         .collect()
 }

@@ -150,6 +150,7 @@ fn mirrors_are_hidden_by_objects_and_not_seen_by_reflected_rays() {
         shape: second,
         tessellation: 8,
         cubemaps: Vec::new(),
+        proxies: Vec::new(),
         pose: catoptric_scene::Pose::REST,
     });
     let frame = Tracer::new(&scene)
@@ -280,6 +281,7 @@ fn backs_are_black() {
         shape: back,
         tessellation: 8,
         cubemaps: Vec::new(),
+        proxies: Vec::new(),
         pose: catoptric_scene::Pose::REST,
     });
     let frame = Tracer::new(&scene)

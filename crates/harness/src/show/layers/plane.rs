@@ -292,13 +292,17 @@ mod tests {
 
     #[test]
     fn what_is_like_the_reference_costs_next_to_nothing() {
-        let noise = |seed: u32| -> Vec<f32> {
-            let values =
-                (0..4096_u32).map(|place| (place.wrapping_mul(2_654_435_761) >> 20) ^ seed);
-            values.map(|value| value as f32).collect()
+        let hash = |place: u32| {
+            let once = place.wrapping_mul(2_654_435_761);
+            (once ^ (once >> 15)).wrapping_mul(2_246_822_519) >> 20
+        };
+        let noise = || {
+            (0..4096)
+                .map(|place| hash(place) as f32)
+                .collect::<Vec<_>>()
         };
         let code = Code::Whole { bytes: 2 };
-        let (truth, same) = (plane(&noise(0), code), plane(&noise(0), code));
+        let (truth, same) = (plane(&noise(), code), plane(&noise(), code));
         let size = |value: &Value| value["data"].as_str().map_or(0, str::len);
         let alone = same.encode(None).unwrap();
         let beside = same.encode(Some(&truth)).unwrap();
@@ -307,9 +311,12 @@ mod tests {
             (&json!("left"), &json!("reference"))
         );
         assert!(size(&beside) < 100 && size(&alone) > 4000);
-        let brighter: Vec<f32> = noise(0).iter().map(|value| value + 7.0).collect();
+        let brighter = noise().into_iter().zip((0..=255_u8).cycle());
+        let brighter: Vec<f32> = brighter
+            .map(|(value, more)| value + 3.0 * f32::from(more))
+            .collect();
         let brighter = plane(&brighter, code).encode(Some(&truth)).unwrap();
         assert_eq!(brighter["predict"], "change");
-        assert!(size(&brighter) < 100);
+        assert!(size(&brighter) < 300);
     }
 }

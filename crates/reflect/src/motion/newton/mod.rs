@@ -9,7 +9,7 @@ use crate::technique::{Info, Named};
 
 options! {
     pub(crate) struct Newton {
-        /// Newton's steps; a pixel that has not arrived then goes on
+        /// Newton's steps
         steps: u32 = 3 in 1..=16,
         /// the surface and its derivatives from the G-buffer's texels, or of the shape itself, where it is known exactly
         derivatives: Derivatives,

@@ -267,7 +267,7 @@ const NO_HIDDEN: Claim = claim(
 
 const SWEPT_FASTER: Claim = claim(
     Paper::Ours,
-    "swept boxes",
+    "",
     "A hierarchy over cells that share their corners is faster than the linear search, its building included.",
     ratio(
         each(SWEPT.0),
@@ -280,7 +280,7 @@ const SWEPT_FASTER: Claim = claim(
 );
 const SWEPT_WARM_HALF: Claim = claim(
     Paper::Ours,
-    "swept boxes",
+    "",
     "From the previous frame's answers of a still camera it tests at most half of the nodes.",
     ratio(
         each(SWEPT_WARM.0),
@@ -329,7 +329,7 @@ pub const FULL_VIEW: &[Claim] = &[
     SWEPT_FASTER,
     claim(
         Paper::Ours,
-        "swept boxes",
+        "",
         "Where the reflection fills the view, it takes at most a fifth of the linear search's time.",
         ratio(
             each(SWEPT.0),

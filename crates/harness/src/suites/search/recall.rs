@@ -70,7 +70,7 @@ pub fn figure() -> Figure {
 const CLAIMS: &[Claim] = &[
     claim(
         Paper::Ours,
-        "swept boxes",
+        "",
         "It finds practically all reflection points.",
         value(
             each(SWEPT.0),
@@ -83,7 +83,7 @@ const CLAIMS: &[Claim] = &[
     ),
     claim(
         Paper::Ours,
-        "swept boxes",
+        "",
         "It finds more than the linear search wherever a vertex may have several.",
         difference(
             each(SWEPT.0),

@@ -337,7 +337,11 @@ fn a_tree_shows_what_all_vertices_show_for_a_part_of_the_searches() {
 #[test]
 fn a_newton_step_takes_most_of_what_interpolation_misses() {
     let Some(gpu) = gpu_or_skip() else { return };
-    let refinements = ["+grid", "+grid(polish=1)", "+grid(cells=octree,polish=1)"];
+    let refinements = [
+        "+grid",
+        "+grid(polish=1)",
+        "+grid(cells=octree,error=0.5,polish=1)",
+    ];
     let [grid, polished, tree] = kitchens(&gpu, refinements);
     assert_eq!(grid.searched, polished.searched, "a step is no search");
     assert!(polished.same > grid.same + 0.04, "{polished:?}");

@@ -415,21 +415,25 @@ fn begin<'e>(
 struct Pipelines<'d> {
     device: &'d wgpu::Device,
     shader: wgpu::ShaderModule,
-    layout: wgpu::PipelineLayout,
+    /// Of the G-buffer's pass, and of the picture's.
+    layouts: [wgpu::PipelineLayout; 2],
 }
 
 impl<'d> Pipelines<'d> {
-    fn new(device: &'d wgpu::Device, layouts: [&wgpu::BindGroupLayout; 2]) -> Self {
+    fn new(device: &'d wgpu::Device, [eye, seen]: [&wgpu::BindGroupLayout; 2]) -> Self {
+        let layout = |groups: &[Option<&wgpu::BindGroupLayout>]| {
+            device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: None,
+                bind_group_layouts: groups,
+                immediate_size: 0,
+            })
+        };
         Self {
             shader: device.create_shader_module(wgpu::ShaderModuleDescriptor {
                 label: None,
                 source: wgpu::ShaderSource::Wgsl(SHADER.into()),
             }),
-            layout: device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: None,
-                bind_group_layouts: &layouts.map(Some),
-                immediate_size: 0,
-            }),
+            layouts: [layout(&[Some(eye)]), layout(&[Some(eye), Some(seen)])],
             device,
         }
     }
@@ -456,7 +460,7 @@ impl<'d> Pipelines<'d> {
         };
         let descriptor = wgpu::RenderPipelineDescriptor {
             label: Some(fragment),
-            layout: Some(&self.layout),
+            layout: Some(&self.layouts[usize::from(colors == 1)]),
             vertex: wgpu::VertexState {
                 module: &self.shader,
                 entry_point: Some(vertex),

@@ -131,7 +131,7 @@ fn series(places: &[(f64, String)], keep: impl Fn(&str, f64) -> bool) -> Vec<Ser
             kept.map(|(x, scene)| Point::new(*x, scene.clone(), *technique)),
         )
     });
-    series.collect()
+    series.filter(|series| !series.points.is_empty()).collect()
 }
 
 /// What is drawn of each of these figures.

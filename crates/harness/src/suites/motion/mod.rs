@@ -124,11 +124,11 @@ fn steps(
 ) -> Figure {
     const STEPS: [&str; 6] = ["0.1", "0.3", "1", "4", "10", "30"];
     let of = |(label, technique): &(&str, &str)| {
-        let points = (0..).zip(STEPS).map(|(x, step)| {
+        let points = STEPS.into_iter().map(|step| {
             let scene = format!("moving-{mirror}-all-step-{step}");
             Point {
                 along: Some(TRUE_MOTION),
-                ..Point::new(f64::from(x), scene, *technique)
+                ..Point::new(step.parse().unwrap_or_default(), scene, *technique)
             }
         });
         Series::new(*label, points)

@@ -247,6 +247,8 @@ fn practically_no_solution_is_missed_and_none_is_made_up() {
     /// Most vertices of a concave mirror with a solution too many or too few, as a share. They lie beside a
     /// caustic, where it is the interpolation's error that decides whether two solutions meet.
     const AT_CAUSTICS: f64 = 0.002;
+    /// Most that are missed at folds, as a share.
+    const AT_FOLDS: f64 = 5e-4;
     let Some(gpu) = gpu_or_skip() else { return };
     let count = 10_000;
     // Greatest mean offset in pixels, most node tests a vertex, share of faults.
@@ -260,7 +262,13 @@ fn practically_no_solution_is_missed_and_none_is_made_up() {
         let outcome = outcome(&gpu, name, "swept-boxes", count);
         println!("{name}: {outcome:.4?}");
         let most = faults * count as f64;
-        assert!(outcome.missed as f64 <= most, "{name}: {outcome:?}");
+        // At a fold two solutions lie within a few pixels of each other.
+        let missed = outcome.missed - outcome.folds;
+        assert!(missed as f64 <= most, "{name}: {outcome:?}");
+        assert!(
+            outcome.folds as f64 <= AT_FOLDS * count as f64,
+            "{name}: {outcome:?}"
+        );
         assert!(outcome.spurious as f64 <= most, "{name}: {outcome:?}");
         assert!(outcome.offset <= offset, "{name}: {outcome:?}");
         assert!(outcome.node_tests <= node_tests, "{name}: {outcome:?}");
@@ -285,7 +293,8 @@ fn a_warm_search_tests_half_of_the_nodes() {
             "{name}: {cold:?} {warm:?}"
         );
         for (a, b) in first.iter().zip(&second) {
-            assert_eq!((a.state, a.at), (b.state, b.at), "{name}");
+            assert_eq!(a.state, b.state, "{name}");
+            assert!(a.at.distance(b.at) < 1e-3, "{name}: {} {}", a.at, b.at);
         }
     }
 }

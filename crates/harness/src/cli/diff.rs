@@ -48,7 +48,12 @@ pub fn run(
 ) -> anyhow::Result<Outcome> {
     match &common.output {
         Some(path) if is_map(path) => check_map(path, [reference, test])?,
-        Some(path) => refuse_file_name(path)?,
+        Some(path) => refuse_file_name(path).map_err(|_| {
+            let path = path.display();
+            bad_input(format!(
+                "-o {path}: name a .png for one map, or a folder for a page with all of them"
+            ))
+        })?,
         None => {}
     }
     let mut notes = Vec::new();

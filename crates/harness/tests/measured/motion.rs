@@ -31,7 +31,18 @@ fn newton_finds_the_true_motion_on_every_mirror() {
     if !gpu_or_skip() {
         return;
     }
-    for mirror in ["ball", "ellipsoid", "bowl", "torus", "saddle", "mesh"] {
+    // Most pixels without an answer: those at the rim, whose share at 640x480 is half of it; on a torus also those
+    // where two images meet, see the README's limits.
+    const AT_THE_RIM: f64 = 0.02;
+    const AT_FOLDS: f64 = 0.06;
+    for (mirror, missing) in [
+        ("ball", AT_THE_RIM),
+        ("ellipsoid", AT_THE_RIM),
+        ("bowl", AT_THE_RIM),
+        ("torus", AT_FOLDS),
+        ("saddle", AT_THE_RIM),
+        ("mesh", AT_THE_RIM),
+    ] {
         let scene = format!("moving-{mirror}-all-step-4");
         let row = row(&scene, "motion-newton(steps=3)");
         let at = |pointer: &str| number(&row, pointer);
@@ -43,7 +54,7 @@ fn newton_finds_the_true_motion_on_every_mirror() {
         );
         assert!(at("/motion/error_px/p50") <= 0.01, "{mirror}: {row}");
         assert!(at("/motion/error_px/p95") <= 0.05, "{mirror}: {row}");
-        assert!(at("/motion/missing") <= 0.01, "{mirror}: {row}");
+        assert!(at("/motion/missing") <= missing, "{mirror}: {row}");
     }
 }
 
@@ -59,7 +70,8 @@ fn without_motion_nothing_is_said_to_move() {
         "motion-newton",
     ] {
         let row = row("bowl", technique);
-        assert_eq!(number(&row, "/motion/true_px/p99"), 0.0, "{technique}");
+        let still = number(&row, "/motion/true_px/p99");
+        assert!(still < 1e-9, "{technique}: {still} px");
         if technique != "motion-flat" && technique != "motion-lens" {
             let max = number(&row, "/motion/error_px/p99");
             assert!(max < 0.001, "{technique}: {max} px");

@@ -12,8 +12,8 @@
 //! not see it, and outside the image. Where something else hid `X` from `R`, the vector stands and the
 //! pixel is marked as disoccluded.
 //!
-//! All of it is done in the mirror's rest frame ([`moment`]), in which only the eye and `X` move: the
-//! surface ([`surface`]) is the one of the scene as written, but that the triangles of mesh mirrors are, at
+//! All of it is done in the mirror's rest frame (`moment`), in which only the eye and `X` move: the
+//! surface (`surface`) is the one of the scene as written, but that the triangles of mesh mirrors are, at
 //! both ends, those of the frames, whose corners are rounded to f32.
 //!
 //! Image coordinates: x right, y down, pixel centres at +½.

@@ -3,7 +3,7 @@
 //!
 //! A browser lets a page from disk read no file but scripts. So each file is a call of
 //! `catoptricLayers` with one object: `reference` and its names, or a technique with the summaries of
-//! its errors; and the planes of either, quantised by steps that each plane states ([`plane`]).
+//! its errors; and the planes of either, quantised by steps that each plane states (`plane`).
 //!
 //! | plane | of | steps |
 //! |---|---|---|

@@ -186,7 +186,7 @@ impl Beams {
     /// the G-buffer's size. After a change of that size, make new ones.
     ///
     /// # Errors
-    /// Whatever does not fit: [`Error`] says what was given and what would be right. What the device itself
+    /// Whatever does not fit: [`enum@Error`] says what was given and what would be right. What the device itself
     /// refuses, such as formats that are no floats, goes to its own error handler.
     pub fn new(
         device: &wgpu::Device,

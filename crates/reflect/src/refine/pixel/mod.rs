@@ -28,7 +28,7 @@ use crate::stage::points::Efforts;
 use crate::stage::variant::Variant;
 use crate::technique::{Info, Named, Properties};
 use passes::Passes;
-use records::Room;
+use records::{Asked, Room};
 use topology::Topology;
 
 options! {
@@ -75,8 +75,12 @@ impl ByPixels {
     fn new(context: &Context<'_>, options: Pixel) -> Result<Self, ReflectError> {
         let topology = Topology::new(&context.stage.world.scene);
         let scene_vertices = SceneVertices::new(context);
-        let room = Room::first(&topology);
-        let passes = Passes::new(context, options, &topology, room, &scene_vertices)?;
+        let room = Room::first(topology.counts());
+        let asked = Asked {
+            error: options.error as f32,
+            level: options.level,
+        };
+        let passes = Passes::new(context, asked, &topology, room, &scene_vertices)?;
         Ok(Self {
             options,
             topology,

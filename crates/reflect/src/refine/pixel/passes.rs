@@ -3,9 +3,8 @@
 use encase::{ShaderSize, StorageBuffer};
 use glam::{Vec3, Vec4};
 
-use super::Pixel;
 use super::kernels::Kernels;
-use super::records::{Edge, GROUP, Level, Room, Settings, Totals, Working};
+use super::records::{Asked, Edge, GROUP, Level, Room, Settings, Totals, Working};
 use super::topology::Topology;
 use crate::error::ReflectError;
 use crate::gpu::{
@@ -46,7 +45,7 @@ pub(super) struct Passes {
 
 /// What does not depend on how much is drawn.
 struct Parts {
-    options: Pixel,
+    asked: Asked,
     kernels: Kernels,
     raster: Raster,
     points_layout: wgpu::BindGroupLayout,
@@ -107,8 +106,8 @@ impl Parts {
         scene_vertices: &SceneVertices,
     ) -> Sized {
         let settings = Settings {
-            error: self.options.error as f32,
-            level: self.options.level,
+            error: self.asked.error,
+            level: self.asked.level,
             vertices: topology.vertices,
             edges: topology.edges.len() as u32,
             triangles: topology.triangles.len() as u32,
@@ -132,7 +131,7 @@ impl Parts {
         let sums = u64::from(room.items) + 2 * u64::from(room.items.div_ceil(GROUP) + 1);
         let sums = storage_zeros(gpu, 8 * sums);
         // The scene's edges, the levels, and what the last level leaves.
-        let levels = storage_zeros(gpu, LEVEL_STRIDE * u64::from(self.options.level + 3));
+        let levels = storage_zeros(gpu, LEVEL_STRIDE * u64::from(self.asked.level + 3));
         let kernels = &self.kernels;
         let adopt = scene_vertices.batches.iter().map(|batch| {
             let scene = [&self.scene_positions, &batch.found];
@@ -162,7 +161,7 @@ impl Parts {
             let all = [own(), at(index), unread, sums.as_entire_binding()];
             kernels.write_edges.group(gpu, &all)
         };
-        let steps = (0..=self.options.level).map(|index| {
+        let steps = (0..=self.asked.level).map(|index| {
             let from = match index {
                 0 => &self.sources,
                 _ => &working[index as usize % 2],
@@ -210,7 +209,7 @@ impl Parts {
 impl Passes {
     pub(super) fn new(
         context: &Context<'_>,
-        options: Pixel,
+        asked: Asked,
         topology: &Topology,
         room: Room,
         scene_vertices: &SceneVertices,
@@ -220,7 +219,7 @@ impl Passes {
         let slots = [read, read, read, read, Slot::Uniform];
         let features = ["split", "bounded"];
         let parts = Parts {
-            options,
+            asked,
             kernels: Kernels::new(context)?,
             raster: Raster::new(
                 gpu,
@@ -236,7 +235,7 @@ impl Passes {
             sources: storage(gpu, &topology.triangles),
             totals: records::<Totals>(gpu, 1),
             effort_sums: storage_zeros(gpu, 24),
-            deviation: uniform(gpu, &(options.error as f32)),
+            deviation: uniform(gpu, &asked.error),
         };
         let sized = parts.sized(gpu, topology, room, scene_vertices);
         gpu.check()?;
@@ -378,7 +377,7 @@ impl Passes {
 
     /// Where the last [`Level`] lies.
     fn end(&self) -> u64 {
-        LEVEL_STRIDE * u64::from(self.parts.options.level + 2)
+        LEVEL_STRIDE * u64::from(self.parts.asked.level + 2)
     }
 
     /// Records the drawing of what the loop made last.

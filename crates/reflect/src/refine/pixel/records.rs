@@ -3,8 +3,6 @@
 use encase::ShaderType;
 use glam::{UVec2, UVec3, UVec4};
 
-use super::topology::Topology;
-
 /// Of an edge or a triangle: there is none. Twin of `NONE` in `pixel/records.wesl`.
 pub(super) const NONE: u32 = u32::MAX;
 
@@ -74,6 +72,15 @@ pub(super) struct Totals {
     pub wanted_finished: u32,
 }
 
+/// What is asked for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Asked {
+    /// How far a drawn edge may be off the true curve, pixels.
+    pub error: f32,
+    /// How often an edge may be split.
+    pub level: u32,
+}
+
 /// How many records of each kind there is room for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Room {
@@ -92,12 +99,10 @@ impl Room {
     /// Beyond the scene's own records, at first.
     const SPARE: u32 = 1 << 13;
 
-    /// For the first frame.
-    pub(super) fn first(topology: &Topology) -> Self {
-        let triangles = topology.triangles.len() as u32;
-        let edges = topology.edges.len() as u32;
+    /// For the first frame of a scene with so many vertices, edges and triangles.
+    pub(super) fn first([vertices, edges, triangles]: [u32; 3]) -> Self {
         Self {
-            points: topology.vertices + Self::SPARE,
+            points: vertices + Self::SPARE,
             edges: edges + Self::SPARE,
             working: Self::SPARE,
             finished: triangles + Self::SPARE,

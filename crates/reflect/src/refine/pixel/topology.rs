@@ -21,6 +21,12 @@ pub(super) struct Topology {
 }
 
 impl Topology {
+    /// Vertices, edges and triangles.
+    pub(super) fn counts(&self) -> [u32; 3] {
+        let [edges, triangles] = [self.edges.len(), self.triangles.len()];
+        [self.vertices, edges as u32, triangles as u32]
+    }
+
     pub(super) fn new(scene: &Scene) -> Self {
         let geometry = Geometry::new(scene);
         let corners: Vec<u32> = geometry

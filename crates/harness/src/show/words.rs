@@ -284,7 +284,11 @@ pub fn noise_floor(rows: &[Record]) -> Option<String> {
 pub fn lead(rows: &[Record], techniques: &[String]) -> Vec<String> {
     techniques
         .iter()
-        .filter(|technique| !technique::properties(technique).is_control)
+        .filter(|technique| {
+            // The picture of what says how reflections moved is the control's.
+            let known = technique::properties(technique);
+            !known.is_control && !known.estimates_motion
+        })
         .filter_map(|technique| {
             let mut found: Vec<(f64, &str)> = rows
                 .iter()

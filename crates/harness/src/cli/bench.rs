@@ -38,11 +38,7 @@ pub fn run(args: &Args, common: &Common) -> anyhow::Result<Outcome> {
     let choice = runner::Choice {
         scene: args.scene.as_deref(),
         seconds: args.time_budget,
-        extent: if args.layers {
-            Extent::All
-        } else {
-            Extent::Usual
-        },
+        extent: Extent::of(args.layers),
         part: args.part,
     };
     runner::run(suite, choice, common)

@@ -28,8 +28,8 @@ pub(crate) use clock::Timer;
 pub use device::Gpu;
 pub use error::{BuildError, GpuError};
 pub(crate) use pipelines::{
-    Kernel, RasterEntries, RasterTargets, compute, compute_unset, dispatch_size, module, raster,
-    raster_to,
+    Kernel, Module, RasterEntries, RasterTargets, compute, compute_unset, dispatch_size, module,
+    raster, raster_to,
 };
 pub(crate) use recorder::{Begin, Recorder};
 pub use self_test::SelfTest;

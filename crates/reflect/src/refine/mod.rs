@@ -7,6 +7,7 @@ pub(crate) mod grid;
 pub(crate) mod none;
 pub(crate) mod pixel;
 mod scene_vertices;
+mod step;
 pub(crate) mod tessellation;
 
 use catoptric_frame::{Triangles, VertexResult};

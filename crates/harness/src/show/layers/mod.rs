@@ -35,6 +35,16 @@ pub enum Extent {
     All,
 }
 
+impl Extent {
+    /// What `--layers` asks for, given or not.
+    pub fn of(layers: bool) -> Self {
+        match layers {
+            true => Self::All,
+            false => Self::Usual,
+        }
+    }
+}
+
 /// Colours: from −1 to 30.99 in steps below the 8-bit picture's nearly everywhere.
 const COLOR: Code = Code::Linear {
     from: -1.0,

@@ -1,26 +1,10 @@
 //! The kernels of `pixel/kernels.wesl`, with the layouts of what they are bound to.
 
 use crate::error::ReflectError;
-use crate::gpu::{Gpu, Kernel, Slot, compute, group, layout, module};
+use crate::gpu::{Slot, layout, module};
 use crate::refine::Context;
+use crate::refine::step::Step;
 use crate::stage::options::{Depth, Fragments, Hidden};
-
-/// A kernel and the layout of its group 3.
-pub(super) struct Step {
-    pub kernel: Kernel,
-    own_layout: wgpu::BindGroupLayout,
-}
-
-impl Step {
-    /// Its group 3.
-    pub(super) fn group(
-        &self,
-        gpu: &Gpu,
-        buffers: &[wgpu::BindingResource<'_>],
-    ) -> wgpu::BindGroup {
-        group(gpu, &self.own_layout, buffers)
-    }
-}
 
 /// In the order in which they run.
 pub(super) struct Kernels {
@@ -61,55 +45,34 @@ impl Kernels {
         let program =
             |feature: &[&str]| module(gpu, "pixel/kernels", &[&of_options, feature].concat());
         let geometry = layout(gpu, "refined", &[Write; 3]);
-        let kernel = |module, entry, slots: &[Slot]| {
-            let own_layout = layout(gpu, entry, slots);
-            let layouts = [
-                Some(&stage.world.view_layout),
-                Some(&stage.gbuffer.mirror_layout),
-                Some(&geometry),
-                Some(&own_layout),
-            ];
-            Step {
-                kernel: compute(gpu, module, entry, &layouts),
-                own_layout,
-            }
-        };
-        // It looks at neither view nor geometry, and binds as many buffers as there may be.
-        let alone = |module, slots: &[Slot]| {
-            let own_layout = layout(gpu, "scan", slots);
-            Step {
-                kernel: compute(gpu, module, "scan", &[None, None, None, Some(&own_layout)]),
-                own_layout,
-            }
-        };
+        let drawing = [
+            Some(&stage.world.view_layout),
+            Some(&stage.gbuffer.mirror_layout),
+            Some(&geometry),
+        ];
+        let kernel = |module, entry, slots: &[Slot]| Step::new(gpu, module, entry, slots, drawing);
+        // They look at neither view nor geometry, and the scan binds as many buffers as there may be.
+        let alone = |module, entry, slots: &[Slot]| Step::new(gpu, module, entry, slots, [None; 3]);
         let [plain, first, telling] = [&[][..], &["first"], &["tally"]].map(program);
         let (plain, first, telling) = (plain?, first?, telling?);
         let count = [Uniform, Read, Read, Write, Write];
         let scan = [Uniform, Write, Write, Write, Write, Write, Write];
         let edges = [Uniform, Read, Read, Write];
         let triangles = [Uniform, Read, Read, Write, Write, Write];
-        let tally = layout(gpu, "tally", &[Read, Read, Write]);
+        let tally = module(gpu, "tessellation/tally", &[])?;
         Ok(Self {
             adopt: kernel(&plain, "adopt", &[Uniform, Read, Read]),
             begin: kernel(&plain, "begin", &[Uniform, Read, Write]),
             first_count: kernel(&first, "count", &count),
-            first_scan: alone(&first, &scan),
+            first_scan: alone(&first, "scan", &scan),
             first_write: kernel(&first, "write_edges", &edges),
             judge: kernel(&plain, "judge", &[Uniform, Read]),
             count: kernel(&plain, "count", &count),
             telling_count: kernel(&telling, "count", &count),
-            scan: alone(&plain, &scan),
+            scan: alone(&plain, "scan", &scan),
             write_edges: kernel(&plain, "write_edges", &edges),
             write_triangles: kernel(&plain, "write_triangles", &triangles),
-            tally: Step {
-                kernel: compute(
-                    gpu,
-                    &module(gpu, "tessellation/tally", &[])?,
-                    "tally",
-                    &[None, None, None, Some(&tally)],
-                ),
-                own_layout: tally,
-            },
+            tally: alone(&tally, "tally", &[Read, Read, Write]),
             geometry,
         })
     }

@@ -2,26 +2,10 @@
 
 use super::rule::Rule;
 use crate::error::ReflectError;
-use crate::gpu::{Gpu, Kernel, Slot, compute, group, layout, module};
+use crate::gpu::{Kernel, Slot, compute, layout, module};
 use crate::refine::Context;
+use crate::refine::step::Step;
 use crate::stage::options::Fragments;
-
-/// A kernel of the loop and the layout of its group 3.
-pub(super) struct Step {
-    pub kernel: Kernel,
-    own_layout: wgpu::BindGroupLayout,
-}
-
-impl Step {
-    /// Its group 3.
-    pub(super) fn group(
-        &self,
-        gpu: &Gpu,
-        resources: &[wgpu::BindingResource<'_>],
-    ) -> wgpu::BindGroup {
-        group(gpu, &self.own_layout, resources)
-    }
-}
 
 /// The entry points of `tessellation/kernels.wesl` in the order in which they run, and of `tessellation/tally.wesl`.
 pub(super) struct Kernels {
@@ -53,17 +37,8 @@ impl Kernels {
             None => &program(&["full"])?,
             Some(_) => &plain,
         };
-        // Groups 0 to 2 as each kernel wants them, then its own.
         let kernel =
-            |module, entry, slots: &[Slot], others: [Option<&wgpu::BindGroupLayout>; 3]| {
-                let own_layout = layout(gpu, entry, slots);
-                let [view, mirror, shared] = others;
-                let layouts = [view, mirror, shared, Some(&own_layout)];
-                Step {
-                    kernel: compute(gpu, module, entry, &layouts),
-                    own_layout,
-                }
-            };
+            |module, entry, slots: &[Slot], others| Step::new(gpu, module, entry, slots, others);
         let alone = [None; 3];
         let answers_layout = layout(gpu, "answers", &[Read; 4]);
         let answered = [

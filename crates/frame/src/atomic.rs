@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
 use crate::FrameError;
-use crate::unfinished::{NewFolder, list, sweep_once};
+use crate::unfinished::{Provisional, list, sweep_once};
 
 /// Replaces the file at `path` by these bytes: it is there whole or not at all. A file that was
 /// there keeps its mode; where `path` is a link, the file that it leads to is replaced.
@@ -22,15 +22,15 @@ pub fn write_whole(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), FrameErro
 }
 
 /// Replaces several files that belong together, as [`write_whole`] does each of them, in this order, and
-/// keeps the folders of what they show: all files are on the disk before the first one takes its place,
-/// and a signal that ends the program finds all of it done or nothing.
+/// keeps what they show: all files are on the disk before the first one takes its place, and a signal
+/// that ends the program finds all of it done or nothing.
 ///
 /// # Errors
-/// As of [`write_whole`]. Where one of the last steps fails, files before it are replaced; if none is, no
-/// folder is kept.
+/// As of [`write_whole`]. Where one of the last steps fails, files before it are replaced; if none is,
+/// nothing is kept.
 pub fn write_together(
     files: &[(&Path, &[u8])],
-    folders: &mut [&mut NewFolder],
+    shown: &mut [&mut Provisional],
 ) -> Result<(), FrameError> {
     let write_error = |path: &Path| {
         let path = path.to_owned();
@@ -55,8 +55,8 @@ pub fn write_together(
             drop(list);
             return Err(write_error(path)(without_path(&failed.error)));
         }
-        for folder in &mut *folders {
-            list.keep(folder);
+        for shown in &mut *shown {
+            list.keep(shown);
         }
     }
     Ok(())
@@ -188,12 +188,12 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let [a, b, nowhere] = ["a", "b", "no/c"].map(|name| folder.path().join(name));
         fs::write(&a, "old").unwrap();
-        let mut made = NewFolder::create(&folder.path().join("made")).unwrap();
+        let mut made = Provisional::folder(&folder.path().join("made")).unwrap();
         let failed = write_together(&[(&a, b"new"), (&nowhere, b"new")], &mut [&mut made]);
         assert!(matches!(failed, Err(FrameError::Write { .. })));
         assert_eq!(fs::read(&a).unwrap(), b"old");
         drop(made);
-        let mut kept = NewFolder::create(&folder.path().join("kept")).unwrap();
+        let mut kept = Provisional::folder(&folder.path().join("kept")).unwrap();
         write_together(&[(&a, b"new"), (&b, b"other")], &mut [&mut kept]).unwrap();
         drop(kept);
         assert_eq!(fs::read(&a).unwrap(), b"new");

@@ -21,7 +21,7 @@ pub use error::FrameError;
 pub use image::Image;
 pub use png::{write_png, write_png_rgb8, write_png16};
 pub use results::{Traced, Triangles, TrueVertex, VertexClass, VertexResult, VertexState, Work};
-pub use unfinished::{NewFolder, abandon_writes, create_folders, is_abandoned, sweep};
+pub use unfinished::{Provisional, abandon_writes, create_folders, is_abandoned, sweep};
 
 use glam::{Vec2, Vec3};
 

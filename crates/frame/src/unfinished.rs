@@ -76,9 +76,9 @@ impl List {
         self.end(&Unfinished::File(path.to_owned()));
     }
 
-    /// From now on a folder stays.
-    pub(crate) fn keep(&mut self, folder: &mut NewFolder) {
-        if let Some(unfinished) = folder.unfinished.take() {
+    /// From now on a file or folder stays.
+    pub(crate) fn keep(&mut self, provisional: &mut Provisional) {
+        if let Some(unfinished) = provisional.unfinished.take() {
             self.end(&unfinished);
         }
     }
@@ -100,39 +100,49 @@ pub fn abandon_writes() {
     std::mem::forget(list);
 }
 
-/// A folder that was not there before. Dropped, it is removed, unless it is kept.
+/// A file or a folder that was not there before and that nothing shows yet. Dropped, it is removed,
+/// unless it is kept.
 #[derive(Debug)]
-pub struct NewFolder {
+pub struct Provisional {
     /// `None` once it is kept.
     unfinished: Option<Unfinished>,
     path: PathBuf,
 }
 
-impl NewFolder {
+impl Provisional {
+    /// A file that is written next, if it is written at all.
+    pub fn file(path: &Path) -> Self {
+        Self::of(&mut list(), path, Unfinished::File(path.to_owned()))
+    }
+
     /// Makes a folder that is removed with all that is in it; its parent must be there.
     ///
     /// # Errors
     /// It is there already, or cannot be made.
-    pub fn create(path: &Path) -> io::Result<Self> {
-        Self::begin(path, Unfinished::Folder(path.to_owned()))
+    pub fn folder(path: &Path) -> io::Result<Self> {
+        let mut list = list();
+        fs::create_dir(path)?;
+        let unfinished = Unfinished::Folder(path.to_owned());
+        Ok(Self::of(&mut list, path, unfinished))
     }
 
     /// Makes a folder that is removed unless something is in it; its parent must be there.
     ///
     /// # Errors
-    /// As of [`NewFolder::create`].
-    pub fn create_for_others(path: &Path) -> io::Result<Self> {
-        Self::begin(path, Unfinished::EmptyFolder(path.to_owned()))
-    }
-
-    fn begin(path: &Path, unfinished: Unfinished) -> io::Result<Self> {
+    /// As of [`Provisional::folder`].
+    pub fn folder_for_others(path: &Path) -> io::Result<Self> {
         let mut list = list();
         fs::create_dir(path)?;
+        let unfinished = Unfinished::EmptyFolder(path.to_owned());
+        Ok(Self::of(&mut list, path, unfinished))
+    }
+
+    fn of(list: &mut List, path: &Path, unfinished: Unfinished) -> Self {
         list.0.push(unfinished.clone());
-        Ok(Self {
+        Self {
             unfinished: Some(unfinished),
             path: path.to_owned(),
-        })
+        }
     }
 
     /// Where it is.
@@ -146,7 +156,7 @@ impl NewFolder {
     }
 }
 
-impl Drop for NewFolder {
+impl Drop for Provisional {
     fn drop(&mut self) {
         if let Some(unfinished) = self.unfinished.take() {
             let mut list = list();
@@ -245,16 +255,31 @@ mod tests {
     }
 
     #[test]
+    fn a_file_stays_if_it_is_kept() {
+        let folder = tempfile::tempdir().unwrap();
+        let [kept, dropped, never] =
+            ["kept", "dropped", "never"].map(|name| folder.path().join(name));
+        let [mut keep, lose, unwritten] =
+            [&kept, &dropped, &never].map(|path| Provisional::file(path));
+        for path in [&kept, &dropped] {
+            fs::write(path, "text").unwrap();
+        }
+        keep.keep();
+        drop((keep, lose, unwritten));
+        assert!(kept.exists() && !dropped.exists() && !never.exists());
+    }
+
+    #[test]
     fn a_folder_stays_if_it_is_kept() {
         let folder = tempfile::tempdir().unwrap();
         let [all, empty, kept] = ["all", "empty", "kept"].map(|name| folder.path().join(name));
-        let other = NewFolder::create_for_others(&empty).unwrap();
-        let whole = NewFolder::create(&all).unwrap();
-        let mut keep = NewFolder::create(&kept).unwrap();
+        let other = Provisional::folder_for_others(&empty).unwrap();
+        let whole = Provisional::folder(&all).unwrap();
+        let mut keep = Provisional::folder(&kept).unwrap();
         for path in [&all, &empty, &kept] {
             fs::write(path.join("file"), "text").unwrap();
         }
-        assert!(NewFolder::create(&all).is_err(), "it is there");
+        assert!(Provisional::folder(&all).is_err(), "it is there");
         keep.keep();
         drop((whole, other, keep));
         assert!(!all.exists() && empty.join("file").exists() && kept.join("file").exists());

@@ -3,15 +3,17 @@
 //! The files of a run lie in folders of its own: `pictures` and `figures` or, where there are such
 //! already, `pictures-2` and `figures-2`, and so on. `index.html` and `record.json` are replaced
 //! together, once a run has something to show. Then the earlier run's files are removed: those in
-//! the list that each folder of ours has. Whatever else is there stays.
+//! the list that each folder of ours has. A run that ends keeps the files that its page shows and
+//! no others. Whatever else is there stays.
 
-use std::collections::BTreeSet;
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
 use std::io::Write;
 use std::path::{Component, Path, PathBuf};
 
 use anyhow::Context;
-use catoptric_frame::{NewFolder, create_folders, is_abandoned, sweep, write_together};
+use catoptric_frame::{Provisional, create_folders, is_abandoned, sweep, write_together};
 
 use crate::exit::bad_input;
 
@@ -31,14 +33,17 @@ const OURS: &str = "<title>catoptric: ";
 /// In each folder of ours: the files in it that are ours, a path a line. Locked while a run writes.
 const LIST: &str = ".catoptric-files";
 
-/// The files of a run. Dropped before [`Draft::put`], it leaves nothing behind.
+/// The files of a run. Dropped before [`Draft::put`], it leaves nothing behind; after it, what the page
+/// shows.
 pub struct Draft {
     folder: PathBuf,
+    /// Those that the page does not show yet, by what it calls them.
+    unshown: RefCell<BTreeMap<String, Provisional>>,
     /// After the names of the folders in it: nothing, or `-2` and so on.
     suffix: String,
     parts: Vec<Part>,
     /// Made for this run; dropped after the parts, when it is empty.
-    made: Option<NewFolder>,
+    made: Option<Provisional>,
 }
 
 /// A folder of a run's files.
@@ -46,7 +51,7 @@ struct Part {
     name: &'static str,
     /// Open and locked as long as the run writes.
     list: File,
-    folder: NewFolder,
+    folder: Provisional,
 }
 
 impl Draft {
@@ -68,7 +73,7 @@ impl Draft {
                 if let Some(parent) = folder.parent() {
                     create_folders(parent).map_err(failed)?;
                 }
-                Some(NewFolder::create_for_others(folder).map_err(failed)?)
+                Some(Provisional::folder_for_others(folder).map_err(failed)?)
             }
         };
         sweep(folder);
@@ -76,6 +81,7 @@ impl Draft {
         let (suffix, parts) = new_parts(folder, parts).map_err(failed)?;
         Ok(Self {
             folder: folder.to_owned(),
+            unshown: RefCell::default(),
             suffix,
             parts,
             made,
@@ -92,15 +98,20 @@ impl Draft {
         let part = self.parts.iter().find(|known| known.name == part);
         let part = part.with_context(|| format!("{path}: pages have no such folder"))?;
         let file = part.folder.path().join(inside);
+        if file.exists() || self.unshown.borrow().contains_key(path) {
+            return Ok(file);
+        }
         let failed = |error: std::io::Error| unwritable(&file, &error);
         if let Some(folder) = file.parent() {
             create_folders(folder).map_err(failed)?;
         }
-        if !file.exists() {
-            (&part.list)
-                .write_all(format!("{inside}\n").as_bytes())
-                .map_err(failed)?;
-        }
+        (&part.list)
+            .write_all(format!("{inside}\n").as_bytes())
+            .map_err(failed)?;
+        let provisional = Provisional::file(&file);
+        self.unshown
+            .borrow_mut()
+            .insert(path.to_owned(), provisional);
         Ok(file)
     }
 
@@ -122,14 +133,20 @@ impl Draft {
     }
 
     fn put_with(&mut self, page: &str, record: Option<&[u8]>) -> anyhow::Result<PathBuf> {
+        let shows = |name: &String| page.contains(&format!("=\"{name}\""));
+        let unshown = self.unshown.get_mut();
+        let mut shown = unshown
+            .extract_if(.., |name, _| shows(name))
+            .collect::<Vec<_>>();
         let page = self.with_suffix(page);
         let (path, record_path) = (self.folder.join(PAGE), self.folder.join(RECORD));
         let parts = self.parts.iter_mut().map(|part| &mut part.folder);
-        let mut folders: Vec<&mut NewFolder> = parts.chain(&mut self.made).collect();
+        let files = shown.iter_mut().map(|(_, file)| file);
+        let mut kept: Vec<&mut Provisional> = parts.chain(&mut self.made).chain(files).collect();
         let page = (path.as_path(), page.as_bytes());
         let record = record.map(|record| (record_path.as_path(), record));
         let files: Vec<_> = std::iter::once(page).chain(record).collect();
-        write_together(&files, &mut folders)?;
+        write_together(&files, &mut kept)?;
         // What the page before showed.
         remove_forsaken(&self.folder);
         Ok(path)
@@ -192,7 +209,7 @@ fn new_parts(folder: &Path, names: &[&'static str]) -> std::io::Result<(String, 
 
 impl Part {
     fn begin(folder: &Path, name: &'static str, suffix: &str) -> std::io::Result<Self> {
-        let folder = NewFolder::create(&folder.join(format!("{name}{suffix}")))?;
+        let folder = Provisional::folder(&folder.join(format!("{name}{suffix}")))?;
         let path = folder.path().join(LIST);
         let list = File::options().append(true).create_new(true).open(&path)?;
         // Where files cannot be locked, those of a killed run are not removed.
@@ -309,6 +326,31 @@ mod tests {
         assert_eq!(fs::read(folder.join(&shown)).unwrap(), b"a");
         drop(draft);
         assert_eq!(names(&folder), before);
+    }
+
+    #[test]
+    fn what_the_page_does_not_show_goes_with_the_run() {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path().join("report");
+        let mut draft = Draft::begin(&folder, &PARTS).unwrap();
+        let write = |draft: &Draft, path: &str| {
+            let file = draft.file(path).unwrap();
+            fs::write(&file, path).unwrap();
+            file
+        };
+        let [first, later, never] = ["first", "later", "never"].map(|name| {
+            let path = format!("pictures/{name}.png");
+            let file = write(&draft, &path);
+            if name == "first" {
+                draft.put(&page(&path), b"[]").unwrap();
+            }
+            file
+        });
+        let both = page("pictures/first.png") + "<img src=\"pictures/later.png\">";
+        draft.put(&both, b"[]").unwrap();
+        assert!(never.exists(), "the next page may show it");
+        drop(draft);
+        assert!(first.exists() && later.exists() && !never.exists());
     }
 
     #[test]

@@ -8,9 +8,6 @@ use std::time::Duration;
 use crate::support::{files, gpu_or_skip};
 use serde_json::Value;
 
-/// Files of ours that all pictures of a page share: a page that is stopped early may not show them yet.
-const SHARED: [&str; 2] = ["reference-full.png", "angle-scale.png"];
-
 /// Somebody else's files, which lie where ours do.
 const OTHERS: [&str; 2] = ["holiday.jpg", "pictures/holiday.jpg"];
 
@@ -96,14 +93,10 @@ fn is_clean(folder: &Path) {
         let name = inside.to_string_lossy().into_owned();
         let of_ours = [".catoptric-files", "index.html", "record.json"];
         let last = inside.file_name().expect("a name").to_string_lossy();
-        let part = name.split('/').next().unwrap_or_default();
-        // The pages of the scenes' layout show one of the two truths, where both are alike.
-        let beside = part.starts_with("pictures") && page.contains(&format!("=\"{part}/"));
         assert!(
             of_ours.contains(&last.as_ref())
                 || shown.contains(&name)
-                || OTHERS.contains(&name.as_str())
-                || (beside && SHARED.contains(&last.as_ref())),
+                || OTHERS.contains(&name.as_str()),
             "{name} is left behind"
         );
     }

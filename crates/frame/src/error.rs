@@ -37,7 +37,7 @@ pub enum FrameError {
         /// The file.
         path: PathBuf,
         /// What the encoder says.
-        source: ::image::ImageError,
+        source: ::png::EncodingError,
     },
     /// A channel that is needed is not there.
     #[error("{}: channel `{channel}` is missing; the file has {present}", path.display())]

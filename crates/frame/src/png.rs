@@ -1,10 +1,10 @@
 //! PNG pictures for showing: 8-bit sRGB, no alpha.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use glam::Vec3;
-use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{ExtendedColorType, ImageEncoder};
+use png::{BitDepth, ColorType, Compression, Encoder, Filter};
 
 use crate::{FrameError, Image, write_whole};
 
@@ -31,10 +31,42 @@ pub fn write_png(image: &Image<Vec3>, path: impl AsRef<Path>) -> Result<(), Fram
     write_png_rgb8(&image.map(|&linear| srgb8_from_linear(linear)), path)
 }
 
-/// Writes pixels that are already 8-bit sRGB.
+/// Writes pixels that are already 8-bit sRGB; with a palette where 256 colours are enough, as in error maps.
 pub fn write_png_rgb8(image: &Image<[u8; 3]>, path: impl AsRef<Path>) -> Result<(), FrameError> {
-    let bytes = image.pixels().as_flattened();
-    write(bytes, image.size(), ExtendedColorType::Rgb8, path.as_ref())
+    let path = path.as_ref();
+    match palette(image) {
+        Some((colors, places)) => write(&places, image.size(), path, |encoder| {
+            encoder.set_color(ColorType::Indexed);
+            encoder.set_palette(colors);
+            // The place of a colour says nothing of its neighbour's.
+            encoder.set_filter(Filter::NoFilter);
+        }),
+        None => write(
+            image.pixels().as_flattened(),
+            image.size(),
+            path,
+            |encoder| {
+                encoder.set_color(ColorType::Rgb);
+            },
+        ),
+    }
+}
+
+/// The colours of an image, one after another, and each pixel's place among them; `None` if there are
+/// more than 256.
+fn palette(image: &Image<[u8; 3]>) -> Option<(Vec<u8>, Vec<u8>)> {
+    let mut places = BTreeMap::new();
+    for color in image.pixels() {
+        places.insert(*color, 0);
+        if places.len() > 256 {
+            return None;
+        }
+    }
+    for (place, own) in (0..=255).zip(places.values_mut()) {
+        *own = place;
+    }
+    let of_pixels = image.pixels().iter().map(|color| places[color]).collect();
+    Some((places.into_keys().flatten().collect(), of_pixels))
 }
 
 /// Writes a linear image as 16-bit sRGB, for a texture; values outside 0 to 1 are clamped.
@@ -44,31 +76,35 @@ pub fn write_png16(image: &Image<Vec3>, path: impl AsRef<Path>) -> Result<(), Fr
         .pixels()
         .iter()
         .flat_map(|color| color.to_array().map(channel))
-        .flat_map(u16::to_ne_bytes)
+        .flat_map(u16::to_be_bytes)
         .collect();
-    write(
-        &bytes,
-        image.size(),
-        ExtendedColorType::Rgb16,
-        path.as_ref(),
-    )
+    write(&bytes, image.size(), path.as_ref(), |encoder| {
+        encoder.set_color(ColorType::Rgb);
+        encoder.set_depth(BitDepth::Sixteen);
+    })
 }
 
+/// Writes pixels as `kind` says that they are; of 8 bits unless it says so.
 fn write(
     bytes: &[u8],
     [width, height]: [u32; 2],
-    kind: ExtendedColorType,
     path: &Path,
+    kind: impl FnOnce(&mut Encoder<'_, &mut Vec<u8>>),
 ) -> Result<(), FrameError> {
-    let mut png = Vec::new();
-    // The fast kind makes files half as large again.
-    PngEncoder::new_with_quality(&mut png, CompressionType::Default, FilterType::Adaptive)
-        .write_image(bytes, width, height, kind)
-        .map_err(|source| FrameError::Png {
-            path: path.into(),
-            source,
-        })?;
-    write_whole(path, &png)
+    let mut file = Vec::new();
+    let mut encoder = Encoder::new(&mut file, width, height);
+    // The fast kinds make files half as large again.
+    encoder.set_compression(Compression::Balanced);
+    encoder.set_filter(Filter::Adaptive);
+    kind(&mut encoder);
+    let written = encoder
+        .write_header()
+        .and_then(|mut writer| writer.write_image_data(bytes));
+    written.map_err(|source| FrameError::Png {
+        path: path.into(),
+        source,
+    })?;
+    write_whole(path, &file)
 }
 
 #[cfg(test)]
@@ -100,6 +136,26 @@ mod tests {
         assert_eq!(read.into_raw(), [255, 0, 0, 128, 128, 128]);
         let files = std::fs::read_dir(folder.path()).unwrap().count();
         assert_eq!(files, 1, "no temporary file is left");
+    }
+
+    #[test]
+    fn few_colours_take_less_room_and_many_come_back_as_well() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("picture.png");
+        for (colors, indexed) in [(1, true), (256, true), (257, false)] {
+            let pixels = (0..64 * 64).map(|index: u32| {
+                let [low, high, ..] = (index * 37 % colors).to_le_bytes();
+                [low, high, low ^ 90]
+            });
+            let image = Image::from_vec([64, 64], pixels.collect());
+            write_png_rgb8(&image, &path).unwrap();
+            let read = image::open(&path).unwrap().into_rgb8();
+            assert!(read.into_raw() == image.pixels().as_flattened(), "{colors}");
+            let file = std::fs::File::open(&path).unwrap();
+            let reader = png::Decoder::new(std::io::BufReader::new(file)).read_info();
+            let is_indexed = reader.unwrap().info().color_type == ColorType::Indexed;
+            assert_eq!(is_indexed, indexed, "{colors}");
+        }
     }
 
     #[test]

@@ -195,7 +195,7 @@ impl Plane {
                 .flat_map(|value| (0..bytes).map(move |byte| part(*value, byte)))
                 .collect(),
         };
-        let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
+        let mut encoder = ZlibEncoder::new(Vec::new(), Compression::best());
         encoder.write_all(&written)?;
         Ok(encoder.finish()?)
     }

@@ -8,9 +8,8 @@ use crate::support::{gpu_or_skip, measured, number};
 /// Half the size for which the limits are stated: a step of 4 pixels is 2 here.
 const SIZE: [u32; 2] = [320, 240];
 
-fn row(scene: &str, technique: &str) -> Value {
-    let mut rows = measured(&[scene], &[technique], Some(SIZE), 0.01);
-    rows.remove(0)
+fn rows(scene: &str, techniques: &[&str]) -> Vec<Value> {
+    measured(&[scene], techniques, Some(SIZE), 0.01)
 }
 
 #[test]
@@ -18,8 +17,11 @@ fn on_a_flat_mirror_the_flat_formulas_are_exact() {
     if !gpu_or_skip() {
         return;
     }
-    for technique in ["motion-flat", "motion-lens", "motion-newton"] {
-        let row = row("moving-plane-all-step-4", technique);
+    let techniques = ["motion-flat", "motion-lens", "motion-newton"];
+    for (technique, row) in techniques
+        .iter()
+        .zip(rows("moving-plane-all-step-4", &techniques))
+    {
         let p99 = number(&row, "/motion/error_px/p99");
         assert!(p99 <= 0.001, "{technique}: {p99} px");
         assert!(number(&row, "/motion/true_px/p50") > 1.0, "{row}");
@@ -44,8 +46,8 @@ fn newton_finds_the_true_motion_on_every_mirror() {
         ("mesh", AT_THE_RIM),
     ] {
         let scene = format!("moving-{mirror}-all-step-4");
-        let row = row(&scene, "motion-newton(steps=3)");
-        let at = |pointer: &str| number(&row, pointer);
+        let row = &rows(&scene, &["motion-newton(steps=3)"])[0];
+        let at = |pointer: &str| number(row, pointer);
         println!(
             "{mirror}: {} / {} px, {} missing",
             at("/motion/error_px/p50"),
@@ -63,13 +65,13 @@ fn without_motion_nothing_is_said_to_move() {
     if !gpu_or_skip() {
         return;
     }
-    for technique in [
+    let techniques = [
         "motion-surface",
         "motion-flat",
         "motion-lens",
         "motion-newton",
-    ] {
-        let row = row("bowl", technique);
+    ];
+    for (technique, row) in techniques.into_iter().zip(rows("bowl", &techniques)) {
         let still = number(&row, "/motion/true_px/p99");
         assert!(still < 1e-9, "{technique}: {still} px");
         if technique != "motion-flat" && technique != "motion-lens" {

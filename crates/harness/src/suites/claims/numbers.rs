@@ -200,6 +200,8 @@ pub enum Place {
     Most,
     /// Each, a case of its own.
     Each,
+    /// Each that stands to the right of this, a case of its own.
+    RightOf(f64),
 }
 
 /// Points of series.
@@ -260,6 +262,10 @@ impl Pick {
                     .collect();
             }
             Place::Each => return known().map(|(x, value)| (Some(x), value)).collect(),
+            Place::RightOf(left) => {
+                let right = known().filter(|(x, _)| *x > left);
+                return right.map(|(x, value)| (Some(x), value)).collect();
+            }
             Place::First => known().next(),
             Place::Last => known().next_back(),
             Place::Least => known().min_by(by_value),

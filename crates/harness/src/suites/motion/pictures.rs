@@ -82,7 +82,7 @@ fn of_scene(studio: &Studio<'_>, name: &str) -> anyhow::Result<Vec<Picture>> {
         pictures.push(save(
             &format!("{}.fetched", slug(label)),
             &shown(&fetched),
-            format!("{name}: the last frame's picture in the mirror, fetched by `{technique}`."),
+            format!("{name}: the last frame's picture in the mirror, fetched by {technique}."),
         )?);
         let [low, high] = MOTION_PX;
         let map = motion_map(&catoptric_metrics::motion_map(&truth, &frame)?);
@@ -90,7 +90,7 @@ fn of_scene(studio: &Studio<'_>, name: &str) -> anyhow::Result<Vec<Picture>> {
             &format!("{}.error", slug(label)),
             &map,
             format!(
-                "{name}: how far `{technique}` is off, on a logarithmic scale from {low} px (black) to \
+                "{name}: how far {technique} is off, on a logarithmic scale from {low} px (black) to \
                  {high} px and no answer (light); grey: no true motion."
             ),
         )?);

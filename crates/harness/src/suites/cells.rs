@@ -17,6 +17,8 @@ const NARROW: usize = 2;
 /// Best and worst, told apart by the colour-blind, on light and on dark paper.
 const GOOD: [u8; 3] = [42, 134, 200];
 const BAD: [u8; 3] = [221, 106, 19];
+/// In place of a number that is not known.
+const NONE: &str = "–";
 /// How much of a colour the best and the worst cell have.
 const STRONGEST: f64 = 0.55;
 /// From this ratio of the largest to the least on, colours go by ratios.
@@ -133,21 +135,29 @@ fn by_series(figure: &Figure, quantity: &Quantity, results: &Results<'_>, places
     });
     let rows = rows.collect();
     let series = figure.series.iter().map(|series| series.label.clone());
-    Grid {
+    let grid = Grid {
         title: quantity.label(),
         heading: [figure.axis.label.clone()]
             .into_iter()
             .chain(series)
             .collect(),
         rows,
-    }
+    };
+    // What could not be measured here stands among all points, with the reason.
+    grid.without_empty_columns().without_empty_rows()
 }
 
 impl Grid {
+    fn without_empty_rows(mut self) -> Self {
+        let is_empty = |row: &Line| row.cells.iter().all(|cell| cell.text == NONE);
+        self.rows.retain(|row| !is_empty(row));
+        self
+    }
+
     fn without_empty_columns(mut self) -> Self {
         let empty = |column: usize| {
             let cells = self.rows.iter().map(|row| &row.cells[column]);
-            cells.into_iter().all(|cell| cell.text == "–")
+            cells.into_iter().all(|cell| cell.text == NONE)
         };
         let kept: Vec<usize> = (0..self.heading.len() - 1)
             .filter(|column| !empty(*column))
@@ -169,7 +179,7 @@ impl Grid {
 
 fn blank(hint: String) -> Cell {
     Cell {
-        text: "–".to_owned(),
+        text: NONE.to_owned(),
         style: String::new(),
         hint,
     }
@@ -265,6 +275,36 @@ mod tests {
         assert!(high[2].contains("42, 134, 200, 0.55") && high[0].contains("221, 106, 19, 0.55"));
         assert!(low[0].contains("42, 134, 200") && low[2].contains("221, 106, 19"));
         assert_eq!((high[1].as_str(), low[1].as_str()), ("", ""));
+    }
+
+    #[test]
+    fn what_has_no_number_takes_no_room() {
+        let cell = |text: &str| Cell {
+            text: text.to_owned(),
+            ..blank(String::new())
+        };
+        let row = |name: &str, cells: [&str; 3]| Line {
+            name: name.to_owned(),
+            cells: cells.map(cell).to_vec(),
+        };
+        let grid = Grid {
+            title: String::new(),
+            heading: ["scene", "a", "b", "c"].map(str::to_owned).to_vec(),
+            rows: vec![
+                row("one", ["1", NONE, NONE]),
+                row("none", [NONE; 3]),
+                row("two", ["1", NONE, "3"]),
+            ],
+        };
+        let grid = grid.without_empty_columns().without_empty_rows();
+        assert_eq!(grid.heading, ["scene", "a", "c"]);
+        assert_eq!(
+            grid.rows,
+            [row("one", ["1", NONE, NONE]), row("two", ["1", NONE, "3"])].map(|mut row| {
+                row.cells.remove(1);
+                row
+            })
+        );
     }
 
     #[test]

@@ -44,6 +44,9 @@ impl Extent {
     }
 }
 
+/// Width of a digit, about.
+const CHARACTER: f64 = 9.0;
+
 /// Labelled ticks at most, about.
 const TICKS: f64 = 7.0;
 
@@ -98,6 +101,25 @@ impl Axis {
             Scale::Close => linear(low, high, 0.05),
             Scale::Log => log(low, high),
         })
+    }
+
+    /// Labels of ticks that do not run into one another: where each stands, and its text. Decades go before
+    /// what is between them.
+    pub fn apart(&self, places: &[f64], at: impl Fn(f64) -> f64) -> Vec<(f64, String)> {
+        let between =
+            |place: &f64| self.scale == Scale::Log && (place - place.round()).abs() > 1e-9;
+        let (later, first): (Vec<f64>, Vec<f64>) = places.iter().copied().partition(between);
+        let mut chosen: Vec<(f64, String)> = Vec::new();
+        for place in first.into_iter().chain(later) {
+            let (x, text) = (at(place), self.tick(place));
+            let half = |text: &str| 0.5 * CHARACTER * (text.chars().count() + 1) as f64;
+            let clear =
+                |(other, said): &(f64, String)| (x - other).abs() >= half(&text) + half(said);
+            if chosen.iter().all(clear) {
+                chosen.push((x, text));
+            }
+        }
+        chosen
     }
 
     /// Whether numbers stand at its ticks.
@@ -224,6 +246,23 @@ mod tests {
         let extent = axis.extent(places.into_iter()).unwrap();
         assert_eq!(extent.bold, [2.0, 3.0, 4.0, 5.0]);
         assert_eq!(axis.place(0.0), None);
+    }
+
+    #[test]
+    fn labels_do_not_run_into_one_another() {
+        let axis = Axis::log("n");
+        let places =
+            [2e3, 5e3, 1e4, 2e4, 5e4, 1e5, 2e5, 5e5, 1e6].map(|value| axis.place(value).unwrap());
+        let said = |wide: f64| -> Vec<String> {
+            let mut labels = axis.apart(&places, |place| wide * (place - 3.0));
+            labels.sort_by(|a, b| a.0.total_cmp(&b.0));
+            labels
+                .into_iter()
+                .map(|(_, text)| text.replace('\u{202f}', ""))
+                .collect()
+        };
+        assert_eq!(said(1000.0).len(), places.len());
+        assert_eq!(said(150.0), ["2000", "10000", "100000", "1000000"]);
     }
 
     #[test]

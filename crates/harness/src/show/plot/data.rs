@@ -4,8 +4,9 @@ use super::axis::Axis;
 
 /// Colours of the series, told apart by the colour-blind (after Okabe and Ito), with a contrast of
 /// at least 3 on light and on dark paper.
-pub const SERIES: [&str; 7] = [
-    "#2a86c8", "#dd6a13", "#1a9f7a", "#c86fa0", "#a98500", "#7f74d8", "#858585",
+pub const SERIES: [&str; 10] = [
+    "#2a86c8", "#dd6a13", "#1a9f7a", "#c86fa0", "#a98500", "#7f74d8", "#858585", "#c8504d",
+    "#6b9423", "#8f6245",
 ];
 
 /// Width of every plot, in its own units.

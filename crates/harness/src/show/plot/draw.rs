@@ -148,8 +148,10 @@ impl Plot {
         if matches!(self.x.scale, Scale::Linear | Scale::Close | Scale::Log) {
             for place in &area.x.bold {
                 let x = area.at_x(*place);
-                let tick = escape(&self.x.tick(*place));
                 path += &format!("M{x:.1} {bottom}v{TICK}");
+            }
+            for (x, tick) in self.x.apart(&area.x.bold, |place| area.at_x(place)) {
+                let tick = escape(&tick);
                 text += &format!(
                     "<text x=\"{x:.1}\" y=\"{}\" text-anchor=\"middle\">{tick}</text>\n",
                     bottom + 20.0

@@ -78,6 +78,16 @@ pub fn object_agreement(reference: &Frame, test: &Frame) -> Result<Option<f64>, 
     Ok(agreement(&layers, |_| true).1)
 }
 
+/// Pixels in cracks of the technique's reflected surface; `None` without mirror pixels.
+///
+/// # Errors
+/// Frames of different sizes, or without layers.
+pub fn crack_pixels(reference: &Frame, test: &Frame) -> Result<Option<u64>, MetricsError> {
+    let layers = Layers::new(reference, test)?;
+    let has_pixels = layers.mirror_pixels().next().is_some();
+    Ok(has_pixels.then(|| layers.gaps().crack_pixels))
+}
+
 /// Colour error on the pixels where `mask` is true; `None` if it has no pixel to compare.
 pub fn compare_color(
     reference: &Image<Vec3>,

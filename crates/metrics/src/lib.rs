@@ -22,7 +22,9 @@ pub mod stats;
 pub mod temporal;
 pub mod vertices;
 
-pub use compare::{CompareOptions, compare, compare_color, compare_with, object_agreement};
+pub use compare::{
+    CompareOptions, compare, compare_color, compare_with, crack_pixels, object_agreement,
+};
 pub use flip::{FlipStats, flip};
 pub use maps::{
     Colormap, CoverageClass, MapKind, color_bar, colorize, colorize_coverage, error_map,

@@ -121,13 +121,15 @@ impl Technique for ObjectOrder {
 
     fn output(&self, gpu: &Gpu) -> Output {
         let efforts = self.refine.efforts(gpu, &self.stage);
+        let surface = (self.refine).surface(gpu, &self.stage, self.search.as_ref());
         Output {
             frame: self.stage.layers(gpu, None),
             may_be_unresolved: false,
             vertices: Some(self.refine.vertices(gpu, &self.stage)),
             searched: efforts.searched,
             triangles: Some(self.refine.triangles(gpu, &self.stage)),
-            t_junctions: (self.refine).t_junctions(gpu, &self.stage, self.search.as_ref()),
+            t_junctions: surface.as_ref().map(|surface| surface.t_junctions),
+            levels: surface.map(|surface| surface.levels),
             work: efforts.mean(self.properties.has_holes),
             notes: self.refine.notes(),
         }

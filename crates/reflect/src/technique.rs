@@ -211,6 +211,9 @@ pub struct Output {
     pub triangles: Option<Triangles>,
     /// Corners of drawn triangles inside an edge of another; `None` where no triangle is split.
     pub t_junctions: Option<u64>,
+    /// By sheet of images, then triangle of the scene: 0 where nothing of it is drawn, else one more than
+    /// how often its deepest part was split; `None` where no triangle is split.
+    pub levels: Option<Vec<u8>>,
     /// Means per search that was run, or per mirror pixel.
     pub work: Work,
     /// What else the reader of these numbers should know, in sentences.

@@ -2,10 +2,12 @@
 
 use catoptric_scene::{LoadOptions, Scene};
 
+use crate::error::ReflectError;
 use crate::gpu::shaders::tests::parsed;
-use crate::gpu::{Gpu, Prefer};
+use crate::gpu::{Gpu, Prefer, Recorder};
 use crate::options::{OptionInfo, Options};
 use crate::parse;
+use crate::refine;
 use crate::registry::{Asked, asked};
 use crate::search::{Context, Instrumentation, Search, Sheet};
 use crate::stage::Stage;
@@ -78,6 +80,40 @@ impl Searched {
         };
         searched.run(gpu);
         searched
+    }
+
+    /// Makes what a refinement of `technique` needs, whose search this is.
+    pub(crate) fn make<T>(
+        &self,
+        gpu: &Gpu,
+        technique: &str,
+        make: impl FnOnce(&refine::Context<'_>) -> Result<T, ReflectError>,
+    ) -> T {
+        let spec = parse(technique).expect("a technique");
+        let Asked::ObjectOrder(asked, _) = asked(&spec) else {
+            panic!("{technique} is no search")
+        };
+        let made = make(&refine::Context {
+            gpu,
+            drawn: asked.common,
+            search: asked.recipe.properties(),
+            sheets: &self.sheets,
+            continued: asked.common.hidden == Hidden::Extend,
+            stage: &self.stage,
+            points_layout: &points_layout(gpu),
+        });
+        made.expect("fits the device")
+    }
+
+    /// Runs `record` on every sheet, with the maps and what the search builds standing ready.
+    pub(crate) fn on_sheets(&self, gpu: &Gpu, record: impl Fn(&mut Recorder<'_>, Sheet)) {
+        gpu.run(|frame| {
+            for sheet in &self.sheets {
+                self.stage.record_maps(frame, sheet.mirror);
+                (self.search).record_build(frame, &self.stage, sheet.mirror);
+                record(frame, *sheet);
+            }
+        });
     }
 
     /// Runs the search once more.

@@ -120,6 +120,13 @@ pub struct Steadiness {
     pub points: Temporal,
     /// Smallest share of mirror pixels that show the right object, over the frames.
     pub object_agreement_min: Option<f64>,
+    /// Most pixels in cracks of the reflected surface that a frame has.
+    pub crack_pixels_max: Option<u64>,
+    /// Most T-junctions that a frame has; `None` where no triangle is split.
+    pub t_junctions_max: Option<u64>,
+    /// Triangles of the scene drawn in two frames running and split to another depth in the second, each on each
+    /// sheet of images; mean over the frames. `None` where no triangle is split.
+    pub triangles_changed: Option<f64>,
     /// Median GPU time of a moving frame in milliseconds; `None` without a usable clock.
     pub frame_ms: Option<f64>,
     /// The same of frames at rest, each in the pose of a moving frame and timed right after it.

@@ -11,7 +11,7 @@ use super::row::Record;
 
 /// Fields that this version of the record has not had from the start, wherever they stand: earlier
 /// ones lack them. So do the members of [`GROWING`].
-const LATER: [&str; 19] = [
+const LATER: [&str; 22] = [
     "resolved_by",
     "equal",
     "left_out",
@@ -31,6 +31,9 @@ const LATER: [&str; 19] = [
     "motion",
     "own",
     "moved_node_tests",
+    "crack_pixels_max",
+    "t_junctions_max",
+    "triangles_changed",
 ];
 /// The field whose members are more from version to version.
 const GROWING: &str = "more";

@@ -175,6 +175,9 @@ pub fn measured(scene: &str, technique: &str) -> Record {
                 jumps: Some(0.0),
             },
             object_agreement_min: Some(0.9),
+            crack_pixels_max: Some(3),
+            t_junctions_max: Some(2),
+            triangles_changed: Some(1.5),
             frame_ms: Some(1.0),
             still_ms: Some(1.0),
             added_ms: Some(PairedDifference {

@@ -7,7 +7,9 @@
 //! (`start=previous`), it is so in both.
 
 use catoptric_frame::{Frame, TrueVertex};
-use catoptric_metrics::{MetricsError, Timing, object_agreement, paired, temporal, vertex_errors};
+use catoptric_metrics::{
+    MetricsError, Timing, crack_pixels, object_agreement, paired, temporal, vertex_errors,
+};
 use catoptric_reference::{NotAvailable, RenderOptions, Tracer, Truth, true_vertices};
 use catoptric_reflect::Output;
 use catoptric_scene::Scene;
@@ -28,6 +30,12 @@ struct Seen {
     errors: Vec<Vec<Option<DVec2>>>,
     frames: u64,
     object_agreement_min: Option<f64>,
+    crack_pixels_max: Option<u64>,
+    t_junctions_max: Option<u64>,
+    /// How deep each triangle was split in the last frame.
+    levels: Option<Vec<u8>>,
+    /// Triangles whose depth changed, by frame from the second on.
+    changed: Vec<f64>,
     /// From the second frame on.
     evaluations: Vec<f64>,
     steps: Vec<f64>,
@@ -103,6 +111,13 @@ impl Seen {
         let agreement = object_agreement(reference, &output.frame).map_err(|e| failed(&e))?;
         let least = self.object_agreement_min.into_iter().chain(agreement);
         self.object_agreement_min = least.reduce(f64::min);
+        let cracks = crack_pixels(reference, &output.frame).map_err(|e| failed(&e))?;
+        self.crack_pixels_max = self.crack_pixels_max.max(cracks);
+        self.t_junctions_max = self.t_junctions_max.max(output.t_junctions);
+        if let (Some(before), Some(now)) = (&self.levels, &output.levels) {
+            self.changed.push(changed(before, now));
+        }
+        self.levels.clone_from(&output.levels);
         let errors = frame_errors(posed, &output, exact).map_err(|error| failed(&error))?;
         self.errors.extend(errors);
         if self.frames > 0 {
@@ -146,6 +161,9 @@ impl Seen {
         Ok(Steadiness {
             points,
             object_agreement_min: self.object_agreement_min,
+            crack_pixels_max: self.crack_pixels_max,
+            t_junctions_max: self.t_junctions_max,
+            triangles_changed: mean(&self.changed),
             added_ms: added.and_then(|(moving, still)| paired(still, moving)),
             frame_ms: median(moving),
             still_ms: median(still),
@@ -154,6 +172,13 @@ impl Seen {
             moved_node_tests: self.node_tests,
         })
     }
+}
+
+/// How many triangles are drawn in both of two frames, but split to another depth.
+fn changed(before: &[u8], now: &[u8]) -> f64 {
+    let pairs = before.iter().zip(now);
+    let changed = pairs.filter(|(before, now)| **before > 0 && **now > 0 && before != now);
+    changed.count() as f64
 }
 
 /// Found − true of every pair in one frame. The technique's own picture says where its mirrors

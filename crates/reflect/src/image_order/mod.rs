@@ -179,6 +179,7 @@ impl Technique for Whole {
             searched: 0,
             triangles: None,
             t_junctions: None,
+            levels: None,
             work: self.technique.work(gpu, &self.stage),
             notes: self.technique.notes(gpu, &self.stage),
         }

@@ -303,6 +303,7 @@ impl Technique for Estimator {
             searched: 0,
             triangles: None,
             t_junctions: None,
+            levels: None,
             work: Work {
                 evaluations: (pixels > 0).then(|| looks / pixels as f64),
                 ..Work::default()

@@ -7,6 +7,7 @@ pub(crate) mod grid;
 pub(crate) mod none;
 pub(crate) mod pixel;
 mod scene_vertices;
+mod split;
 mod step;
 pub(crate) mod tessellation;
 
@@ -89,9 +90,8 @@ pub(crate) trait Refine {
     /// All triangles of the last frame.
     fn triangles(&self, gpu: &Gpu, stage: &Stage) -> Triangles;
 
-    /// Corners of the last frame's drawn triangles that lie inside an edge of another; `None` for
-    /// refinements that split no triangle.
-    fn t_junctions(&self, _gpu: &Gpu, _stage: &Stage, _search: &dyn Search) -> Option<u64> {
+    /// What the last frame's drawn triangles are like; `None` for refinements that split no triangle.
+    fn surface(&self, _gpu: &Gpu, _stage: &Stage, _search: &dyn Search) -> Option<Surface> {
         None
     }
 
@@ -99,6 +99,14 @@ pub(crate) trait Refine {
     fn notes(&self) -> Vec<String> {
         Vec::new()
     }
+}
+
+/// What the drawn triangles of a frame are like, all sheets together.
+pub(crate) struct Surface {
+    /// Corners that lie inside an edge of another triangle.
+    pub t_junctions: u64,
+    /// As [`Output::levels`](crate::Output::levels).
+    pub levels: Vec<u8>,
 }
 
 /// What every refinement is made from.

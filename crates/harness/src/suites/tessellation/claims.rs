@@ -10,7 +10,8 @@ use crate::suites::paths::{
     REFINE_MS, SEARCHED, STILL_MS, UNFINISHED, WIDEST,
 };
 
-use super::data::{ADAPTIVE, FULL, NONE, PIXEL};
+use super::by_pixels;
+use super::data::{ADAPTIVE, FULL, NONE};
 use super::labels::FOUR;
 use super::labels::{
     COARSE, ELLIPSOID, FINE, HIERARCHY_ADAPTIVE, HIERARCHY_FULL, LARGE_MIRROR, MOTION,
@@ -296,6 +297,7 @@ pub const CRACK: &[Claim] = &[
         ),
         COUNTED,
     ),
+    by_pixels::WHOLE,
     claim(
         C13,
         "5.3",
@@ -310,21 +312,6 @@ pub const CRACK: &[Claim] = &[
         "the widest crack at a threshold of 0.0001 less the widest at any: at least a pixel narrower.",
     ),
 ];
-
-/// Error against triangles.
-pub const PIXELS: &[Claim] = &[claim(
-    Paper::Ours,
-    "",
-    "Split by pixels, edge by edge, the surface has no T-junction.",
-    value(
-        of(Which::Named(PIXEL), Place::Most),
-        Term::Path(JUNCTIONS),
-        Limit::Between(0.0, 0.0),
-        Noise::Exact,
-        Shown::In("T-junctions"),
-    ),
-    COUNTED,
-)];
 
 /// CESCG Fig. 7.
 pub const TABLE: &[Claim] = &[
@@ -650,31 +637,38 @@ pub const REFLECTORS: &[Claim] = &[
 ];
 
 /// A mirror near and far.
-pub const SIZE: &[Claim] = &[claim(
-    T13,
-    "5.2, 6.2",
-    "A mirror that is small in the picture is split as much as a large one, needlessly.",
-    ratio(
-        at(SMALL_MIRROR, 0.0),
-        at(LARGE_MIRROR, 0.0),
-        TRIANGLES,
-        Limit::Between(0.8, 1.25),
-        Noise::Exact,
+pub const SIZE: &[Claim] = &[
+    by_pixels::SMALLER,
+    claim(
+        T13,
+        "5.2, 6.2",
+        "A mirror that is small in the picture is split as much as a large one, needlessly.",
+        ratio(
+            at(SMALL_MIRROR, 0.0),
+            at(LARGE_MIRROR, 0.0),
+            TRIANGLES,
+            Limit::Between(0.8, 1.25),
+            Noise::Exact,
+        ),
+        "triangles are counted: a quarter is about as many.",
     ),
-    "triangles are counted: a quarter is about as many.",
-)];
+];
 
 /// A camera that moves.
-pub const DYNAMIC: &[Claim] = &[claim(
-    C13,
-    "5.2",
-    "Scenes that move cost adaptive tessellation nothing extra.",
-    value(
-        of(Which::Named(MOTION), Place::Each),
-        MOVING,
-        Limit::Below(1.25),
-        Noise::Share(0.15),
-        Shown::Times,
+pub const DYNAMIC: &[Claim] = &[
+    by_pixels::UNBROKEN,
+    by_pixels::WITHOUT_JUNCTIONS,
+    claim(
+        C13,
+        "5.2",
+        "Scenes that move cost adaptive tessellation nothing extra.",
+        value(
+            of(Which::Named(MOTION), Place::Each),
+            MOVING,
+            Limit::Below(1.25),
+            Noise::Share(0.15),
+            Shown::Times,
+        ),
+        "a moving frame's time over a still one's; less than a quarter is not told apart on a busy machine.",
     ),
-    "a moving frame's time over a still one's; less than a quarter is not told apart on a busy machine.",
-)];
+];

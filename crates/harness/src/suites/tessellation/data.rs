@@ -38,6 +38,20 @@ pub fn adaptive(level: u32, threshold: &str) -> String {
     format!("linear+adaptive(level={level},threshold={threshold})")
 }
 
+/// The deviation of edges that `+pixel` allows by itself, pixels.
+pub const HALF: &str = "0.5";
+
+/// By pixels, split so often at most.
+pub fn pixel_to(level: u32) -> String {
+    format!("newton(hidden=extend)+pixel(level={level})")
+}
+
+/// By pixels against the level limit.
+pub fn pixels_by_level(levels: u32, point: impl Fn(f64, String) -> Point) -> Series {
+    let points = (0..=levels).map(|level| point(f64::from(level), pixel_to(level)));
+    Series::new(PIXEL, points)
+}
+
 /// By pixels, with a search that answers between them.
 pub fn pixel(error: &str) -> String {
     format!("newton(hidden=extend)+pixel(error={error})")

@@ -6,7 +6,7 @@ use crate::suites::paths::{AGREEMENT, FRAME_MS};
 use crate::suites::series::{Ask, Point, Series};
 
 use super::claims;
-use super::data::{BY_EYE, NONE, THRESHOLD, adaptive, full, quantities};
+use super::data::{BY_EYE, NONE, PIXEL, THRESHOLD, adaptive, full, pixel_to, quantities};
 use super::labels::FOUR;
 
 /// The scene's fine floor, split twice, is 180 000 triangles.
@@ -32,6 +32,10 @@ pub fn facets(scene: &str) -> Figure {
     four.points[0].picture = true;
     let mut eight = Series::new(EIGHT, points("linear(neighbours=8)"));
     eight.points[0].picture = true;
+    let by_pixels = Point {
+        resolution: Some(SIZE),
+        ..Point::new(3.0, scene, pixel_to(LEVEL))
+    };
     Figure {
         anchor: "facets",
         title: "A mirror of flat facets".to_owned(),
@@ -41,8 +45,8 @@ pub fn facets(scene: &str) -> Figure {
              or not at all where the best point is a crease; and on a facet all normals are the same. \
              Does splitting triangles help?"
                 .to_owned(),
-        axis: Axis::names("tessellation", [NONE, "full, 2 levels", "adaptive, 2 levels"]),
-        series: vec![four, eight],
+        axis: Axis::names("tessellation", [NONE, "full, 2 levels", "adaptive, 2 levels", "by pixels, 2 levels"]),
+        series: vec![four, eight, Series::new(PIXEL, [by_pixels])],
         quantities: quantities([Quantity::log(FRAME_MS)]),
         quotes: const { &[Quote {
             what: "a polygonal mirror",

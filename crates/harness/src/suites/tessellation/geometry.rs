@@ -10,7 +10,7 @@ use crate::show::pictures::slug;
 use crate::suites::pictures::geometry;
 use crate::suites::suite::{Picture, Studio};
 
-use super::data::{CRACK, SQUARE, TABLE, THRESHOLD, adaptive, full};
+use super::data::{CRACK, HALF, SQUARE, TABLE, THRESHOLD, adaptive, full, pixel};
 
 /// All pictures: figure, scene, technique, and what became of the triangles.
 pub fn make(studio: &Studio<'_>) -> anyhow::Result<Vec<Picture>> {
@@ -26,9 +26,12 @@ pub fn make(studio: &Studio<'_>) -> anyhow::Result<Vec<Picture>> {
             adaptive(5, THRESHOLD),
             "split where needed",
         ),
+        ("wireframes", square, pixel(HALF), "split by pixels"),
         ("crack", crack, adaptive(5, THRESHOLD), "split where needed"),
+        ("crack", crack, pixel(HALF), "split by pixels"),
         ("table", table, "linear".to_owned(), "not split"),
         ("table", table, adaptive(4, THRESHOLD), "split where needed"),
+        ("table", table, pixel(HALF), "split by pixels"),
     ];
     let pictures = wanted
         .into_iter()

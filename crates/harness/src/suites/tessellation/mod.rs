@@ -6,6 +6,7 @@
 //! The thesis' figures are in `square`, those of the other paper in `table` and `facets`, and what
 //! both say without a figure in `more`.
 
+mod by_pixels;
 mod claims;
 mod data;
 mod facets;
@@ -51,9 +52,12 @@ fn figures(asked: &Asked<'_>) -> Vec<Figure> {
         table::counts(&table),
         facets::facets(scene.unwrap_or(FACETS)),
     ];
-    figures.push(pixels::curve("pixels", square, claims::PIXELS));
+    figures.push(pixels::curve("pixels", square, by_pixels::SQUARE));
     if scene.is_none() {
-        figures.push(pixels::curve("pixels-table", data::TABLE, &[]));
+        figures.extend([
+            pixels::curve("pixels-table", data::TABLE, by_pixels::MANY),
+            pixels::curve("pixels-ellipsoid", "ellipsoid", by_pixels::MANY),
+        ]);
     }
     figures.extend(more::figures(scene));
     figures

@@ -9,8 +9,8 @@ use crate::suites::series::{Ask, Point, Series};
 
 use super::claims;
 use super::data::{
-    ADAPTIVE, BY_EYE, FULL, NONE, PAPERS, SQUARE, THRESHOLD, WHOLE_PIXELS, adaptive,
-    adaptive_on_mesh, full, quantities, three_modes,
+    ADAPTIVE, BY_EYE, FULL, HALF, NONE, PAPERS, PIXEL, SQUARE, THRESHOLD, WHOLE_PIXELS, adaptive,
+    adaptive_on_mesh, full, pixel, pixel_to, pixels_by_level, quantities, three_modes,
 };
 use super::labels::{HIDDEN, SEARCH, TO_FIVE};
 
@@ -25,7 +25,7 @@ const SHOWN_LEVEL: u32 = 5;
 
 /// Thesis Fig. 1.5.
 pub fn straight(scene: &str) -> Figure {
-    let techniques = ["linear".to_owned(), full(SHOWN_LEVEL)];
+    let techniques = ["linear".to_owned(), full(SHOWN_LEVEL), pixel(HALF)];
     let points = (0..).zip(techniques);
     let points = points.map(|(x, technique)| Point::new(f64::from(x), scene, technique).shown());
     Figure {
@@ -35,7 +35,10 @@ pub fn straight(scene: &str) -> Figure {
         question: "The corners of a square are reflected where they belong; what lies between is \
                    interpolated. The same square, split until its edges bend."
             .to_owned(),
-        axis: Axis::names("the square", ["its corners alone", "split five times"]),
+        axis: Axis::names(
+            "the square",
+            ["its corners alone", "split five times", PIXEL],
+        ),
         series: vec![Series::new(SEARCH, points)],
         quantities: quantities([Quantity::linear(FRAME_MS)]),
         quotes: const {
@@ -64,7 +67,7 @@ pub fn by_level(scene: &str) -> Figure {
         question: format!(
             "A square of two triangles before a mirror sphere (or the scene asked for), split at most so \
              often; full splits all but what is hidden by all its corners, adaptive \
-             where the edge error reaches {THRESHOLD}. The line across the angular errors is what an \
+             where the edge error reaches {THRESHOLD}, by pixels the edges that are {HALF} px off. The line across the angular errors is what an \
              answer in whole pixels is off by: the median angle between what a pixel's centre and the \
              rest of that pixel truly show."
         ),
@@ -78,9 +81,12 @@ pub fn by_level(scene: &str) -> Figure {
             };
             let hidden = Series::new(HIDDEN, (0..=HIDDEN_LEVELS).map(hidden));
             let own = (scene == SQUARE).then_some(hidden);
-            all.chain([adaptive_on_mesh(LEVELS, point)])
-                .chain(own)
-                .collect()
+            all.chain([
+                adaptive_on_mesh(LEVELS, point),
+                pixels_by_level(LEVELS, point),
+            ])
+            .chain(own)
+            .collect()
         },
         quantities: vec![
             Quantity::log(FRAME_MS),
@@ -120,16 +126,17 @@ pub fn wireframes(scene: &str) -> Figure {
         "linear".to_owned(),
         full(SHOWN_LEVEL),
         adaptive(SHOWN_LEVEL, THRESHOLD),
+        pixel(HALF),
     ];
     let points = (0..).zip(techniques);
     let points = points.map(|(x, technique)| Point::new(f64::from(x), scene, technique).shown());
     Figure {
         anchor: "wireframes",
-        title: "None, full and adaptive".to_owned(),
+        title: "None, full, adaptive and by pixels".to_owned(),
         after: "Szabo 2013, Fig. 5.3 and 5.4",
-        question: "The same reflection three times, shaded and as the triangles it is made of."
+        question: "The same reflection four times, shaded and as the triangles it is made of."
             .to_owned(),
-        axis: Axis::names("tessellation", [NONE, "full, 5 levels", ADAPTIVE]),
+        axis: Axis::names("tessellation", [NONE, "full, 5 levels", ADAPTIVE, PIXEL]),
         series: vec![Series::new(SEARCH, points)],
         quantities: quantities([Quantity::linear(FRAME_MS), Quantity::log(DRAWN)]),
         quotes: const {
@@ -157,6 +164,9 @@ pub fn visible_levels(scene: &str) -> Figure {
     let points = (0..)
         .zip(SHOWN_LEVELS)
         .map(|(x, level)| Point::new(f64::from(x), scene, full(level)).shown());
+    let by_pixels = (0..)
+        .zip(SHOWN_LEVELS)
+        .map(|(x, level)| Point::new(f64::from(x), scene, pixel_to(level)));
     Figure {
         anchor: "visible",
         title: "Levels 0, 2, 3 and 4".to_owned(),
@@ -164,7 +174,7 @@ pub fn visible_levels(scene: &str) -> Figure {
         question: "Every triangle split so often, but for the hidden ones. What is there to see after level 3?"
             .to_owned(),
         axis: Axis::names("level", ["0", "2", "3", "4"]),
-        series: vec![Series::new(FULL, points)],
+        series: vec![Series::new(FULL, points), Series::new(PIXEL, by_pixels)],
         quantities: quantities([
             Quantity::linear(FRAME_MS),
             Quantity::log(FLIP),
@@ -189,17 +199,17 @@ const CRACK_THRESHOLDS: [&str; 4] = ["0.1", "0.01", "0.001", "0.0001"];
 
 /// Thesis Fig. 6.5, CESCG Fig. 10a.
 pub fn cracks(scene: &str) -> Figure {
-    let names = ["none", "0.1", "0.01", "0.001", "0.0001", "full"];
+    let names = ["none", "0.1", "0.01", "0.001", "0.0001", "full", PIXEL];
     let adaptive = CRACK_THRESHOLDS.map(|threshold| adaptive(SHOWN_LEVEL, threshold));
     let techniques = [
         vec!["linear".to_owned()],
         adaptive.to_vec(),
-        vec![full(SHOWN_LEVEL)],
+        vec![full(SHOWN_LEVEL), pixel(HALF)],
     ]
     .concat();
     let points = (0..).zip(techniques).map(|(x, technique)| {
         let point = Point::new(f64::from(x), scene, technique);
-        if names[x as usize] == THRESHOLD {
+        if [THRESHOLD, PIXEL].contains(&names[x as usize]) {
             point.shown()
         } else {
             point
@@ -218,7 +228,7 @@ pub fn cracks(scene: &str) -> Figure {
         after: "Szabo 2013, Fig. 6.5, and Szabo CESCG, Fig. 10a",
         question:
             "A triangle is split by its worst edge, whatever its neighbour does: where a split \
-                   edge meets an unsplit one the surface tears."
+                   edge meets an unsplit one the surface tears. By pixels, an edge is split for both."
                 .to_owned(),
         axis: Axis::names("threshold", names),
         series: vec![Series::new(TO_FIVE, points)],

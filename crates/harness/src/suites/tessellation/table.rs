@@ -7,8 +7,8 @@ use crate::suites::series::{Ask, Point, Series};
 
 use super::claims;
 use super::data::{
-    ADAPTIVE, BY_EYE, NONE, PAPERS, TABLE, THRESHOLD, WHOLE_PIXELS, adaptive, full, quantities,
-    three_modes,
+    ADAPTIVE, BY_EYE, HALF, NONE, PAPERS, PIXEL, TABLE, THRESHOLD, WHOLE_PIXELS, adaptive, full,
+    pixel, pixels_by_level, quantities, three_modes,
 };
 
 /// The size at which full tessellation to level 4 (2.5 million triangles) fits the suite's time.
@@ -48,6 +48,7 @@ pub fn coarse_and_fine(place: &Place) -> Figure {
         "linear".to_owned(),
         adaptive(LEVELS, THRESHOLD),
         full(LEVELS),
+        pixel(HALF),
     ];
     let points = (0..).zip(techniques);
     let points = points.map(|(x, technique)| place.point(f64::from(x), technique).shown());
@@ -58,7 +59,7 @@ pub fn coarse_and_fine(place: &Place) -> Figure {
         question:
             "Adaptive tessellation should split the coarse models and leave the fine one alone."
                 .to_owned(),
-        axis: Axis::names("tessellation", [NONE, ADAPTIVE, "full, 4 levels"]),
+        axis: Axis::names("tessellation", [NONE, ADAPTIVE, "full, 4 levels", PIXEL]),
         series: vec![Series::new(SEARCH, points)],
         quantities: quantities([Quantity::log(FRAME_MS), Quantity::log(DRAWN)]),
         quotes: const {
@@ -113,10 +114,16 @@ pub fn thresholds(place: &Place) -> Figure {
         after: "Szabo CESCG, Fig. 8",
         question: format!(
             "The threshold decides between accuracy and time; up to {LEVELS} levels. At 0 every triangle is \
-             split: full tessellation."
+             split: full tessellation. Last, beside them, by pixels."
         ),
-        axis: Axis::names("threshold", THRESHOLDS),
-        series: vec![Series::new(ADAPTIVE, points)],
+        axis: Axis::names("threshold", THRESHOLDS.into_iter().chain([PIXEL])),
+        series: vec![
+            Series::new(ADAPTIVE, points),
+            Series::new(
+                PIXEL,
+                [place.point(THRESHOLDS.len() as f64, pixel(HALF)).shown()],
+            ),
+        ],
         quantities: quantities([
             Quantity::log(FRAME_MS),
             Quantity::log(DRAWN),
@@ -161,10 +168,15 @@ pub fn counts(place: &Place) -> Figure {
         after: "Szabo CESCG, Fig. 9",
         question: format!(
             "How many triangles (three vertices each, as the papers draw them) and how many searches a level \
-             limit leads to; adaptive at a threshold of {THRESHOLD}."
+             limit leads to; adaptive at a threshold of {THRESHOLD}, by pixels at {HALF} px."
         ),
         axis: Axis::linear("level limit"),
-        series: three_modes(LEVELS, |x, technique| place.point(x, technique)),
+        series: {
+            let point = |x, technique| place.point(x, technique);
+            let mut series = three_modes(LEVELS, point);
+            series.push(pixels_by_level(LEVELS, point));
+            series
+        },
         quantities: vec![
             Quantity::log(DRAWN),
             Quantity::log(SEARCHED),

@@ -5,9 +5,6 @@ use glam::Vec2;
 
 use super::forest::Place;
 use super::*;
-use crate::registry::{Asked, asked};
-use crate::stage::options::Hidden;
-use crate::stage::points::points_layout;
 use crate::testing::{Searched, assert_layout, gpu_or_skip, scene};
 use crate::{Output, Prepared, parse, prepare};
 
@@ -22,34 +19,18 @@ pub(crate) struct Gridded {
 impl Gridded {
     pub(crate) fn new(gpu: &Gpu, scene: &Scene, technique: &str, size: [u32; 2]) -> Self {
         let spec = parse(technique).expect("a technique");
-        let (search, _) = technique.split_once('+').expect("a refinement");
-        let searched = Searched::new(gpu, scene, search, size);
+        let searched = Searched::new(gpu, scene, technique, size);
         let options = spec.refinement().expect("a refinement");
         let (options, _): (Grid, _) = options.of().expect("a grid");
-        let Asked::ObjectOrder(asked, _) = asked(&spec) else {
-            panic!("{technique} is no search")
-        };
+        let (mut interpolation, continued) = searched.make(gpu, technique, |context| {
+            let made = Interpolation::new(&options, context);
+            made.map(|made| (made, context.continued))
+        });
         let stage = &searched.stage;
-        let continued = asked.common.hidden == Hidden::Extend;
-        let context = Context {
-            gpu,
-            drawn: asked.common,
-            search: asked.recipe.properties(),
-            sheets: &searched.sheets,
-            continued,
-            stage,
-            points_layout: &points_layout(gpu),
-        };
-        let made = Interpolation::new(&options, &context);
-        let mut interpolation = made.expect("fits the device");
         interpolation.begin_frame(gpu, stage, false);
-        gpu.run(|frame| {
-            for sheet in &searched.sheets {
-                let (search, variant) = (searched.search.as_ref(), Variant::AllLayers);
-                stage.record_maps(frame, sheet.mirror);
-                search.record_build(frame, stage, sheet.mirror);
-                interpolation.record(frame, stage, search, *sheet, variant);
-            }
+        searched.on_sheets(gpu, |frame, sheet| {
+            let (search, variant) = (searched.search.as_ref(), Variant::AllLayers);
+            interpolation.record(frame, stage, search, sheet, variant);
         });
         Self {
             options,

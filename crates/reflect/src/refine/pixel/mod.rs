@@ -17,8 +17,9 @@ mod topology;
 use catoptric_frame::{Triangles, VertexResult};
 
 use super::scene_vertices::SceneVertices;
-use super::tessellation::{DEEPEST, MOST_COUNTED, junctions};
-use super::{Context, Recipe, Refine};
+use super::split::{Counts, Drawn, Splits};
+use super::tessellation::DEEPEST;
+use super::{Context, Recipe, Refine, Surface};
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder};
 use crate::options::options;
@@ -130,45 +131,45 @@ impl Refine for ByPixels {
     }
 
     fn efforts(&self, gpu: &Gpu, stage: &Stage) -> Efforts {
-        let mut efforts = self.scene_vertices.efforts(gpu, stage);
-        let [steps, evaluations, node_tests] = self.passes.effort_sums(gpu);
-        efforts.add(Efforts {
-            searched: self.passes.totals(gpu).points.into(),
-            steps,
-            evaluations,
-            node_tests,
-        });
-        efforts
+        self.efforts_of_all(gpu, stage)
     }
 
     fn triangles(&self, gpu: &Gpu, stage: &Stage) -> Triangles {
-        let totals = self.passes.totals(gpu);
-        let by_level = totals.by_level[..=self.options.level as usize].iter();
-        let by_level: Vec<_> = by_level.map(|count| u64::from(*count)).collect();
-        Triangles {
-            input: self.topology.triangles.len() as u64 * stage.world.mirrors.len() as u64,
-            drawn: by_level.iter().sum(),
-            by_level,
-            unfinished: totals.unfinished.into(),
-        }
+        self.triangles_of_all(gpu, stage)
     }
 
-    fn t_junctions(&self, gpu: &Gpu, stage: &Stage, search: &dyn Search) -> Option<u64> {
-        if self.triangles(gpu, stage).drawn > MOST_COUNTED {
-            return None;
+    fn surface(&self, gpu: &Gpu, stage: &Stage, search: &dyn Search) -> Option<Surface> {
+        self.surface_of_all(gpu, stage, search)
+    }
+}
+
+impl Splits for ByPixels {
+    fn level(&self) -> u32 {
+        self.options.level
+    }
+
+    fn scene_vertices(&self) -> &SceneVertices {
+        &self.scene_vertices
+    }
+
+    fn counts(&self, gpu: &Gpu) -> Counts {
+        self.passes.counts(gpu)
+    }
+
+    fn visit_drawn(
+        &self,
+        gpu: &Gpu,
+        stage: &Stage,
+        search: &dyn Search,
+        sheet: Sheet,
+        visit: &mut dyn FnMut(Drawn),
+    ) {
+        for (piece, corners) in self.passes.drawn(gpu, stage, search, sheet) {
+            visit(Drawn {
+                source: piece.source,
+                level: piece.level,
+                corners: corners.map(|corner| corner.position),
+            });
         }
-        let objects = junctions::objects(&stage.world.scene);
-        let sheets = self.scene_vertices.sheets.iter();
-        let count = sheets.map(|sheet| {
-            let mut edges = junctions::Edges::default();
-            for (source, corners) in self.passes.drawn(gpu, stage, search, *sheet) {
-                edges.add(
-                    objects[source as usize],
-                    corners.map(|corner| corner.position),
-                );
-            }
-            edges.t_junctions(self.options.level)
-        });
-        Some(count.sum())
     }
 }

@@ -13,6 +13,7 @@ use crate::gpu::{
 };
 use crate::refine::Context;
 use crate::refine::scene_vertices::SceneVertices;
+use crate::refine::split::{Counts, clear, sums};
 use crate::refine::tessellation::Piece;
 use crate::search::{Search, Sheet};
 use crate::stage::Stage;
@@ -262,14 +263,22 @@ impl Passes {
     }
 
     pub(super) fn begin_frame(&self, gpu: &Gpu) {
-        for buffer in [&self.parts.totals, &self.parts.effort_sums] {
-            let zeros = vec![0; buffer.size() as usize];
-            gpu.queue.write_buffer(buffer, 0, &zeros);
+        clear(gpu, [&self.parts.totals, &self.parts.effort_sums]);
+    }
+
+    /// What was counted in the last frame.
+    pub(super) fn counts(&self, gpu: &Gpu) -> Counts {
+        let totals = self.totals(gpu);
+        Counts {
+            by_level: totals.by_level,
+            points: totals.points,
+            unfinished: totals.unfinished,
+            efforts: sums(gpu, &self.parts.effort_sums),
         }
     }
 
     /// The [`Totals`] of the last frame.
-    pub(super) fn totals(&self, gpu: &Gpu) -> Totals {
+    fn totals(&self, gpu: &Gpu) -> Totals {
         let size = Totals::SHADER_SIZE.get();
         let bytes = gpu.read_buffer_part(&self.parts.totals, size);
         let totals = StorageBuffer::new(bytes).create();
@@ -394,14 +403,7 @@ impl Passes {
         });
     }
 
-    /// Steps, evaluations and node tests of all new points of the last frame.
-    pub(super) fn effort_sums(&self, gpu: &Gpu) -> [u64; 3] {
-        let bytes = gpu.read_buffer_part(&self.parts.effort_sums, 24);
-        let word = |index: usize| -> u64 { bytemuck::pod_read_unaligned(&bytes[index * 8..][..8]) };
-        [word(0), word(1), word(2)]
-    }
-
-    /// The drawn triangles of a sheet in the last frame, each with its source, made again: the buffers only
+    /// The drawn triangles of a sheet in the last frame with their corners, made again: the buffers only
     /// ever hold one sheet's.
     pub(super) fn drawn(
         &self,
@@ -409,7 +411,7 @@ impl Passes {
         stage: &Stage,
         search: &dyn Search,
         sheet: Sheet,
-    ) -> Vec<(u32, [Corner; 3])> {
+    ) -> Vec<(Piece, [Corner; 3])> {
         let totals = gpu.read_buffer(&self.parts.totals);
         gpu.run(|frame| {
             stage.record_maps(frame, sheet.mirror);
@@ -432,7 +434,7 @@ impl Passes {
             }
         };
         let pieces = pieces.into_iter();
-        let drawn = pieces.map(|piece| (piece.source, piece.points.to_array().map(corner)));
+        let drawn = pieces.map(|piece| (piece, piece.points.to_array().map(corner)));
         drawn.collect()
     }
 }

@@ -5,8 +5,6 @@ use glam::{DVec3, Vec2, Vec3};
 
 use super::*;
 use crate::gpu::storage_bytes;
-use crate::registry::{Asked, asked};
-use crate::stage::options::Hidden;
 use crate::stage::points::{Found, Points, points_layout};
 use crate::testing::{Searched, gpu_or_skip, scene};
 use crate::{Output, parse, prepare};
@@ -85,33 +83,18 @@ struct Made {
 fn made(gpu: &Gpu, name: &str, technique: &str, size: [u32; 2]) -> Made {
     let scene = scene(name);
     let spec = parse(technique).expect("a technique");
-    let (search, _) = technique.split_once('+').expect("a refinement");
-    let searched = Searched::new(gpu, &scene, search, size);
-    let Asked::ObjectOrder(asked, _) = asked(&spec) else {
-        panic!("{technique} is no search")
-    };
-    let context = Context {
-        gpu,
-        drawn: asked.common,
-        search: asked.recipe.properties(),
-        sheets: &searched.sheets,
-        continued: asked.common.hidden == Hidden::Extend,
-        stage: &searched.stage,
-        points_layout: &points_layout(gpu),
-    };
+    let searched = Searched::new(gpu, &scene, technique, size);
     let options = spec.refinement().expect("a refinement").of();
     let (options, _): (Pixel, _) = options.expect("by pixels");
-    let mut refinement = ByPixels::new(&context, options).expect("fits the device");
+    let mut refinement = searched.make(gpu, technique, |context| ByPixels::new(context, options));
+    let stage = &searched.stage;
     loop {
-        refinement.begin_frame(gpu, &searched.stage, false);
-        gpu.run(|frame| {
+        refinement.begin_frame(gpu, stage, false);
+        searched.on_sheets(gpu, |frame, sheet| {
             let (search, variant) = (searched.search.as_ref(), Variant::AllLayers);
-            let sheet = searched.sheets[0];
-            searched.stage.record_maps(frame, sheet.mirror);
-            search.record_build(frame, &searched.stage, sheet.mirror);
-            refinement.record(frame, &searched.stage, search, sheet, variant);
+            refinement.record(frame, stage, search, sheet, variant);
         });
-        if !refinement.outgrown(gpu, &searched.stage).expect("fits") {
+        if !refinement.outgrown(gpu, stage).expect("fits") {
             break;
         }
     }

@@ -20,9 +20,11 @@ pub(crate) mod tests;
 mod twin;
 
 use catoptric_frame::{Triangles, VertexResult};
+use glam::Vec3;
 
 use super::scene_vertices::SceneVertices;
-use super::{Context, Refine};
+use super::split::{Counts, Drawn, Splits};
+use super::{Context, Refine, Surface};
 use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder};
 use crate::search::{Search, Sheet};
@@ -41,7 +43,7 @@ pub(crate) use rule::Rule;
 pub(crate) struct Leaf {
     pub piece: Piece,
     /// World-space corners.
-    pub corners: [glam::Vec3; 3],
+    pub corners: [Vec3; 3],
     /// What their searches came to: one of `Found::…`.
     #[cfg_attr(not(test), expect(dead_code, reason = "tests check `drawn` by them"))]
     pub states: [u32; 3],
@@ -49,9 +51,6 @@ pub(crate) struct Leaf {
     /// mirror; with `hidden=extend` the others may be anything but failed.
     pub drawn: bool,
 }
-
-/// Triangles at most among which T-junctions are looked for: they are made and read once more.
-pub(super) const MOST_COUNTED: u64 = 1 << 18;
 
 /// A refinement by a [`Rule`].
 pub(crate) struct Tessellation {
@@ -177,27 +176,15 @@ impl Refine for Tessellation {
     }
 
     fn efforts(&self, gpu: &Gpu, stage: &Stage) -> Efforts {
-        let mut efforts = self.scene_vertices.efforts(gpu, stage);
-        let [steps, evaluations, node_tests] = self.passes.effort_sums(gpu);
-        efforts.add(Efforts {
-            searched: self.passes.totals(gpu).points.into(),
-            steps,
-            evaluations,
-            node_tests,
-        });
-        efforts
+        self.efforts_of_all(gpu, stage)
     }
 
     fn triangles(&self, gpu: &Gpu, stage: &Stage) -> Triangles {
-        let totals = self.passes.totals(gpu);
-        let by_level = totals.by_level[..=self.plan.level as usize].iter();
-        let by_level: Vec<_> = by_level.map(|count| u64::from(*count)).collect();
-        Triangles {
-            input: u64::from(self.plan.triangles) * stage.world.mirrors.len() as u64,
-            drawn: by_level.iter().sum(),
-            by_level,
-            unfinished: totals.unfinished.into(),
-        }
+        self.triangles_of_all(gpu, stage)
+    }
+
+    fn surface(&self, gpu: &Gpu, stage: &Stage, search: &dyn Search) -> Option<Surface> {
+        self.surface_of_all(gpu, stage, search)
     }
 
     fn notes(&self) -> Vec<String> {
@@ -206,22 +193,37 @@ impl Refine for Tessellation {
                     no predecessors, and start where the search starts without a previous frame";
         cold.then(|| note.to_owned()).into_iter().collect()
     }
+}
 
-    fn t_junctions(&self, gpu: &Gpu, stage: &Stage, search: &dyn Search) -> Option<u64> {
-        if self.triangles(gpu, stage).drawn > MOST_COUNTED {
-            return None;
-        }
-        let objects = junctions::objects(&stage.world.scene);
-        let sheets = self.scene_vertices.sheets.iter();
-        let count = sheets.map(|sheet| {
-            let mut edges = junctions::Edges::default();
-            self.leaves(gpu, stage, search, *sheet, |leaf| {
-                if leaf.drawn {
-                    edges.add(objects[leaf.piece.source as usize], leaf.corners);
-                }
-            });
-            edges.t_junctions(self.plan.level)
+impl Splits for Tessellation {
+    fn level(&self) -> u32 {
+        self.plan.level
+    }
+
+    fn scene_vertices(&self) -> &SceneVertices {
+        &self.scene_vertices
+    }
+
+    fn counts(&self, gpu: &Gpu) -> Counts {
+        self.passes.counts(gpu)
+    }
+
+    fn visit_drawn(
+        &self,
+        gpu: &Gpu,
+        stage: &Stage,
+        search: &dyn Search,
+        sheet: Sheet,
+        visit: &mut dyn FnMut(Drawn),
+    ) {
+        self.leaves(gpu, stage, search, sheet, |leaf| {
+            if leaf.drawn {
+                visit(Drawn {
+                    source: leaf.piece.source,
+                    level: leaf.piece.level,
+                    corners: leaf.corners,
+                });
+            }
         });
-        Some(count.sum())
     }
 }

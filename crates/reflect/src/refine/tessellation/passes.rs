@@ -12,6 +12,7 @@ use crate::error::ReflectError;
 use crate::gpu::{Gpu, Recorder, Slot, dispatch_size, group, uniform};
 use crate::refine::Context;
 use crate::refine::scene_vertices::SceneVertices;
+use crate::refine::split::{Counts, clear, sums};
 use crate::search::{Search, Sheet};
 use crate::stage::Stage;
 use crate::stage::points::{Dispatch, Found, Points, read};
@@ -174,10 +175,7 @@ impl Passes {
     }
 
     pub(super) fn begin_frame(&self, gpu: &Gpu) {
-        for buffer in [&self.buffers.totals, &self.buffers.effort_sums] {
-            let zeros = vec![0; buffer.size() as usize];
-            gpu.queue.write_buffer(buffer, 0, &zeros);
-        }
+        clear(gpu, [&self.buffers.totals, &self.buffers.effort_sums]);
     }
 
     /// What the [`Totals`] are kept in.
@@ -185,12 +183,18 @@ impl Passes {
         &self.buffers.totals
     }
 
-    /// The [`Totals`] of the last frame.
-    pub(super) fn totals(&self, gpu: &Gpu) -> Totals {
+    /// What was counted in the last frame.
+    pub(super) fn counts(&self, gpu: &Gpu) -> Counts {
         let size = Totals::SHADER_SIZE.get();
         let bytes = gpu.read_buffer_part(&self.buffers.totals, size);
         let totals = StorageBuffer::new(bytes).create();
-        totals.expect("the buffer holds the totals")
+        let totals: Totals = totals.expect("the buffer holds the totals");
+        Counts {
+            by_level: totals.by_level,
+            points: totals.points,
+            unfinished: totals.unfinished,
+            efforts: sums(gpu, &self.buffers.effort_sums),
+        }
     }
 
     /// Records the loop over one chunk on one sheet.
@@ -273,13 +277,6 @@ impl Passes {
                 pass.draw_indirect(&self.buffers.levels, arguments);
             },
         );
-    }
-
-    /// Steps, evaluations and node tests of all new points of the last frame.
-    pub(super) fn effort_sums(&self, gpu: &Gpu) -> [u64; 3] {
-        let bytes = gpu.read_buffer_part(&self.buffers.effort_sums, 24);
-        let word = |index: usize| -> u64 { bytemuck::pod_read_unaligned(&bytes[index * 8..][..8]) };
-        [word(0), word(1), word(2)]
     }
 
     /// What the loop made last.

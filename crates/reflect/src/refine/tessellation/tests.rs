@@ -6,8 +6,6 @@ use glam::Vec3;
 use super::*;
 use crate::refine::adaptive::Adaptive;
 use crate::refine::full::Full;
-use crate::registry::{Asked, asked};
-use crate::stage::points::points_layout;
 use crate::testing::{Searched, gpu_or_skip, scene};
 use crate::{Output, parse, prepare};
 
@@ -27,37 +25,21 @@ impl Tessellated {
 
     fn within(gpu: &Gpu, scene: &Scene, technique: &str, size: [u32; 2], binding: u64) -> Self {
         let spec = parse(technique).expect("a technique");
-        let (search, _) = technique.split_once('+').expect("a refinement");
-        let searched = Searched::new(gpu, scene, search, size);
+        let searched = Searched::new(gpu, scene, technique, size);
         let options = spec.refinement().expect("a refinement");
         let adaptive = options
             .of()
             .map(|(adaptive, _): (Adaptive, _)| adaptive.rule());
         let full = options.of().map(|(full, _): (Full, _)| full.rule());
         let rule = adaptive.or(full).expect("a rule");
-        let Asked::ObjectOrder(asked, _) = asked(&spec) else {
-            panic!("{technique} is no search")
-        };
-        let context = Context {
-            gpu,
-            drawn: asked.common,
-            search: asked.recipe.properties(),
-            sheets: &searched.sheets,
-            continued: asked.common.hidden == Hidden::Extend,
-            stage: &searched.stage,
-            points_layout: &points_layout(gpu),
-        };
-        let mut tessellation =
-            Tessellation::within(&context, rule, binding).expect("fits the device");
-        tessellation.begin_frame(gpu, &searched.stage, false);
-        gpu.run(|frame| {
-            for sheet in &searched.sheets {
-                let search = searched.search.as_ref();
-                let variant = Variant::AllLayers;
-                searched.stage.record_maps(frame, sheet.mirror);
-                search.record_build(frame, &searched.stage, sheet.mirror);
-                tessellation.record(frame, &searched.stage, search, *sheet, variant);
-            }
+        let mut tessellation = searched.make(gpu, technique, |context| {
+            Tessellation::within(context, rule, binding)
+        });
+        let stage = &searched.stage;
+        tessellation.begin_frame(gpu, stage, false);
+        searched.on_sheets(gpu, |frame, sheet| {
+            let (search, variant) = (searched.search.as_ref(), Variant::AllLayers);
+            tessellation.record(frame, stage, search, sheet, variant);
         });
         Self {
             searched,
@@ -177,8 +159,8 @@ fn chunks_make_the_same_triangles() {
     assert_eq!(counted(&whole), counted(&parts));
     let junctions = |made: &Tessellated| {
         let search = made.searched.search.as_ref();
-        made.tessellation
-            .t_junctions(&gpu, &made.searched.stage, search)
+        let surface = (made.tessellation).surface(&gpu, &made.searched.stage, search);
+        surface.map(|surface| (surface.t_junctions, surface.levels))
     };
     assert_eq!(junctions(&whole), junctions(&parts));
 }

@@ -1,6 +1,6 @@
 //! Tessellation judged by the truth; skipped without an adapter, unless `CATOPTRIC_REQUIRE_GPU=1`.
 
-use crate::support::{gpu_or_skip, measured};
+use crate::support::{gpu_or_skip, measured, measured_over, number};
 use serde_json::Value;
 
 fn compare(scene: &str, techniques: &[&str]) -> Vec<Value> {
@@ -64,4 +64,56 @@ fn the_published_threshold_splits_the_square_twice() {
         "{drawn:?}"
     );
     assert_eq!(rows[0]["vertices"]["hidden"], 0);
+}
+
+/// Cracks and T-junctions of each row, standing still and over all frames.
+fn torn(rows: &[Value]) -> Vec<(String, [f64; 5])> {
+    let paths = [
+        "/coverage/cracks",
+        "/coverage/crack_pixels",
+        "/coverage/t_junctions",
+        "/temporal/crack_pixels_max",
+        "/temporal/t_junctions_max",
+    ];
+    let row = |row: &Value| {
+        let name = format!("{} {}", row["scene"], row["technique"]);
+        (name, paths.map(|path| number(row, path)))
+    };
+    let rows = rows.iter().map(row);
+    rows.filter(|(_, counts)| *counts != [0.0; 5]).collect()
+}
+
+#[test]
+fn a_surface_split_by_pixels_stays_whole_while_things_move() {
+    if !gpu_or_skip() {
+        return;
+    }
+    let scene = ["sphere-square-hidden"];
+    let techniques = ["newton(start=tile)+pixel", "newton+adaptive"];
+    let rows = measured_over(&scene, &techniques, Some([96, 72]), 0.01, Some(2));
+    let found = torn(&rows[..1]);
+    assert!(found.is_empty(), "{found:?}");
+    // What is counted is there to be found.
+    assert!(number(&rows[1], "/temporal/t_junctions_max") > 0.0);
+    assert!(number(&rows[1], "/temporal/crack_pixels_max") > 0.0);
+    assert!(number(&rows[1], "/temporal/triangles_changed") >= 0.0);
+}
+
+#[test]
+fn splitting_by_pixels_shows_the_right_objects() {
+    if !gpu_or_skip() {
+        return;
+    }
+    let techniques = [
+        "newton(start=tile,hidden=extend)+pixel(error=0.25)",
+        "newton(start=tile,hidden=extend,fragments=exact)+pixel(error=0.25)",
+    ];
+    for scene in ["sphere-square", "sphere-table"] {
+        let rows = compare(scene, &techniques);
+        let right = |row: usize| number(&rows[row], "/object_agreement");
+        assert!(right(0) >= 0.997, "{scene}: {}", right(0));
+        assert!(right(1) >= 0.9995, "{scene}: {}", right(1));
+        let angle = number(&rows[1], "/angular_error_deg/p99");
+        assert!(angle <= 0.05, "{scene}: {angle}");
+    }
 }

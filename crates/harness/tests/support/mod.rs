@@ -90,10 +90,21 @@ pub fn measured(
     size: Option<[u32; 2]>,
     seconds: f64,
 ) -> Vec<Value> {
+    measured_over(scenes, techniques, size, seconds, None)
+}
+
+/// The same, over so many frames of each scene's motion.
+pub fn measured_over(
+    scenes: &[&str],
+    techniques: &[&str],
+    size: Option<[u32; 2]>,
+    seconds: f64,
+    frames: Option<u32>,
+) -> Vec<Value> {
     let owned =
         |names: &[&str]| -> Vec<String> { names.iter().map(|name| (*name).to_owned()).collect() };
     let timing = Duration::from_secs_f64(seconds);
-    let wanted = run::product(&owned(scenes), &owned(techniques), timing, None);
+    let wanted = run::product(&owned(scenes), &owned(techniques), timing, frames);
     let common = Common {
         resolution: size,
         quiet: true,

@@ -53,6 +53,8 @@ fn no_crack_opens_from_twenty_places() {
     let mut scene = scene("crack");
     let (eye, target) = (scene.camera.eye, scene.camera.target);
     let mut published = 0;
+    let spec = parse("newton+pixel").expect("a technique");
+    let mut prepared = prepare(&gpu, &spec, &scene, SIZE).expect("fits the device");
     for place in 0..20 {
         let turn = f64::from(place);
         let aside = DVec3::new(
@@ -61,7 +63,8 @@ fn no_crack_opens_from_twenty_places() {
             0.4 * (0.9 * turn).sin(),
         );
         scene.camera.eye = eye + 0.12 * (eye - target).length() * aside;
-        let drawn = output(&gpu, &scene, "newton+pixel");
+        prepared.update(&scene).expect("the same scene");
+        let drawn = prepared.render().expect("renders");
         assert_eq!(drawn.t_junctions, Some(0), "place {place}");
         assert_eq!(enclosed(&drawn), 0, "place {place}");
         let triangles = drawn.triangles.expect("counted");

@@ -27,6 +27,14 @@ impl Frame {
     /// whole or not at all.
     pub fn write_exr(&self, path: impl AsRef<Path>) -> Result<(), FrameError> {
         let path = path.as_ref();
+        write_whole(path, &self.to_exr(path)?)
+    }
+
+    /// The OpenEXR file that [`Frame::write_exr`] writes; messages name it by `path`.
+    ///
+    /// # Errors
+    /// Layers differ in size, or hold what the format cannot.
+    pub fn to_exr(&self, path: &Path) -> Result<Vec<u8>, FrameError> {
         let refused = |reason| FrameError::Refused {
             path: path.into(),
             reason,
@@ -80,7 +88,7 @@ impl Frame {
                 path: path.into(),
                 source,
             })?;
-        write_whole(path, &bytes.into_inner())
+        Ok(bytes.into_inner())
     }
 
     /// Reads an OpenEXR file, ours or another renderer's: see [`Frame::from_channels`].

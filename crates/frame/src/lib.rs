@@ -19,7 +19,7 @@ pub use atomic::{check_writable, write_together, write_whole};
 pub use channels::Channels;
 pub use error::FrameError;
 pub use image::Image;
-pub use png::{write_png, write_png_rgb8, write_png16};
+pub use png::{png16, write_png, write_png_rgb8};
 pub use results::{Traced, Triangles, TrueVertex, VertexClass, VertexResult, VertexState, Work};
 pub use unfinished::{Provisional, abandon_writes, create_folders, is_abandoned, sweep};
 

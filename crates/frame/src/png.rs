@@ -34,22 +34,19 @@ pub fn write_png(image: &Image<Vec3>, path: impl AsRef<Path>) -> Result<(), Fram
 /// Writes pixels that are already 8-bit sRGB; with a palette where 256 colours are enough, as in error maps.
 pub fn write_png_rgb8(image: &Image<[u8; 3]>, path: impl AsRef<Path>) -> Result<(), FrameError> {
     let path = path.as_ref();
-    match palette(image) {
-        Some((colors, places)) => write(&places, image.size(), path, |encoder| {
+    let size = image.size();
+    let file = match palette(image) {
+        Some((colors, places)) => encoded(&places, size, path, |encoder| {
             encoder.set_color(ColorType::Indexed);
             encoder.set_palette(colors);
             // The place of a colour says nothing of its neighbour's.
             encoder.set_filter(Filter::NoFilter);
         }),
-        None => write(
-            image.pixels().as_flattened(),
-            image.size(),
-            path,
-            |encoder| {
-                encoder.set_color(ColorType::Rgb);
-            },
-        ),
-    }
+        None => encoded(image.pixels().as_flattened(), size, path, |encoder| {
+            encoder.set_color(ColorType::Rgb);
+        }),
+    }?;
+    write_whole(path, &file)
 }
 
 /// The colours of an image, one after another, and each pixel's place among them; `None` if there are
@@ -69,8 +66,9 @@ fn palette(image: &Image<[u8; 3]>) -> Option<(Vec<u8>, Vec<u8>)> {
     Some((places.into_keys().flatten().collect(), of_pixels))
 }
 
-/// Writes a linear image as 16-bit sRGB, for a texture; values outside 0 to 1 are clamped.
-pub fn write_png16(image: &Image<Vec3>, path: impl AsRef<Path>) -> Result<(), FrameError> {
+/// A linear image as a PNG of 16-bit sRGB, for a texture; values outside 0 to 1 are clamped. Messages
+/// name it by `path`.
+pub fn png16(image: &Image<Vec3>, path: &Path) -> Result<Vec<u8>, FrameError> {
     let channel = |linear: f32| (srgb_from_linear(linear) * 65535.0).round() as u16;
     let bytes: Vec<u8> = image
         .pixels()
@@ -78,19 +76,19 @@ pub fn write_png16(image: &Image<Vec3>, path: impl AsRef<Path>) -> Result<(), Fr
         .flat_map(|color| color.to_array().map(channel))
         .flat_map(u16::to_be_bytes)
         .collect();
-    write(&bytes, image.size(), path.as_ref(), |encoder| {
+    encoded(&bytes, image.size(), path, |encoder| {
         encoder.set_color(ColorType::Rgb);
         encoder.set_depth(BitDepth::Sixteen);
     })
 }
 
-/// Writes pixels as `kind` says that they are; of 8 bits unless it says so.
-fn write(
+/// Pixels as a PNG, as `kind` says that they are; of 8 bits unless it says so.
+fn encoded(
     bytes: &[u8],
     [width, height]: [u32; 2],
     path: &Path,
     kind: impl FnOnce(&mut Encoder<'_, &mut Vec<u8>>),
-) -> Result<(), FrameError> {
+) -> Result<Vec<u8>, FrameError> {
     let mut file = Vec::new();
     let mut encoder = Encoder::new(&mut file, width, height);
     // The fast kinds make files half as large again.
@@ -104,7 +102,7 @@ fn write(
         path: path.into(),
         source,
     })?;
-    write_whole(path, &file)
+    Ok(file)
 }
 
 #[cfg(test)]

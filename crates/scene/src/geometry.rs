@@ -171,7 +171,7 @@ impl Geometry {
             mesh.material
                 .push(self.material.get(index).copied().unwrap_or(0));
             if let Some(normals) = self.normals.get(index) {
-                let world = normals.map(|normal| (to_normal * normal).try_normalize());
+                let world = normals.map(|normal| unit(to_normal * normal));
                 let lacks = self.bare.get(index).copied().unwrap_or_default();
                 let none = [0, 1, 2].map(|corner| lacks[corner] || world[corner].is_none());
                 let world = world.map(|normal| normal.unwrap_or(DVec3::ZERO).as_vec3());
@@ -199,6 +199,15 @@ struct Built {
     bare: Vec<[bool; 3]>,
     /// A triangle each.
     smoothing: Vec<Smoothing>,
+}
+
+/// A vector of length 1 in this direction. One that is of that length in 32 bits stays as it is, so that
+/// the normals of a mesh that was written come back bit by bit.
+fn unit(vector: DVec3) -> Option<DVec3> {
+    match (vector.length_squared() - 1.0).abs() < f64::from(2.0 * f32::EPSILON) {
+        true => Some(vector),
+        false => vector.try_normalize(),
+    }
 }
 
 fn turned<T>([a, b, c]: [T; 3], flip: bool) -> [T; 3] {

@@ -15,12 +15,13 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use anyhow::Context;
-use catoptric_frame::{Frame, Image, write_whole};
+use catoptric_frame::{Frame, Image};
 use catoptric_scene::shape::Primitive;
 use catoptric_scene::{Background, Fov, Mesh, Mirror, Paint, Scene, Texture};
 use glam::{DMat3, DVec3, Vec2, Vec3};
 use serde_json::json;
+
+use crate::output::Bundle;
 
 use super::ply::Ply;
 use super::sides::{Viewpoints, visible};
@@ -39,15 +40,14 @@ const NEAR: f64 = 1e-3;
 /// Far clipping plane, likewise.
 const FAR: f64 = 1e5;
 
-/// Writes a scene, its meshes and textures; `scene.xml` is there only when all else is.
+/// Writes a scene, its meshes and textures, all of them at once: an earlier export stands until then.
+///
+/// # Errors
+/// The folder cannot be written into.
 pub fn write(scene: &Scene, bounces: u32, folder: &Path) -> anyhow::Result<()> {
-    for part in ["meshes", "textures"] {
-        let part = folder.join(part);
-        std::fs::create_dir_all(&part)
-            .with_context(|| format!("cannot make the folder {}", part.display()))?;
-    }
     let mut writer = Writer {
         folder,
+        files: Bundle::default(),
         xml: String::new(),
         ids: Vec::new(),
         textures: 0,
@@ -62,7 +62,7 @@ pub fn write(scene: &Scene, bounces: u32, folder: &Path) -> anyhow::Result<()> {
     for (index, mirror) in scene.mirrors.iter().enumerate() {
         let id = scene.mirror_id(index);
         let shape = format!("mirror_{id}");
-        writer.mirror(&shape, mirror)?;
+        writer.mirror(&shape, mirror);
         writer.name(id, &mirror.name, "mirror", vec![shape]);
     }
     writer.xml += "</scene>\n";
@@ -74,12 +74,15 @@ pub fn write(scene: &Scene, bounces: u32, folder: &Path) -> anyhow::Result<()> {
         "bounces": bounces,
         "ids": writer.ids,
     });
-    write_whole(folder.join(IDS_FILE), format!("{ids:#}\n").as_bytes())?;
-    Ok(write_whole(folder.join(SCENE_FILE), writer.xml.as_bytes())?)
+    let mut files = writer.files;
+    files.add(IDS_FILE, format!("{ids:#}\n").into_bytes());
+    files.add(SCENE_FILE, writer.xml.into_bytes());
+    files.put(folder)
 }
 
 struct Writer<'f> {
     folder: &'f Path,
+    files: Bundle,
     xml: String,
     ids: Vec<serde_json::Value>,
     textures: u32,
@@ -212,7 +215,7 @@ impl Writer<'_> {
                 continue;
             }
             let shape = format!("object_{id}_{number}");
-            let file = self.mesh(&shape, &ply)?;
+            let file = self.mesh(&shape, &ply);
             let radiance = self.radiance(paint)?;
             let _ = write!(
                 self.xml,
@@ -278,7 +281,7 @@ impl Writer<'_> {
         })
     }
 
-    fn mirror(&mut self, shape: &str, mirror: &Mirror) -> anyhow::Result<()> {
+    fn mirror(&mut self, shape: &str, mirror: &Mirror) {
         let (plugin, keys) = match mirror.shape.primitive() {
             Some(Primitive::Sphere { center, radius }) => {
                 let [x, y, z] = center.to_array();
@@ -306,7 +309,7 @@ impl Writer<'_> {
     </shape>
 "#
                 );
-                return Ok(());
+                return;
             }
             Some(Primitive::Rectangle { center, axes }) => ("rectangle", matrix(axes, center)),
             None => {
@@ -320,7 +323,7 @@ impl Writer<'_> {
                     };
                     ply.triangle([&row(0), &row(1), &row(2)]);
                 }
-                let file = self.mesh(shape, &ply)?;
+                let file = self.mesh(shape, &ply);
                 let keys = format!(r#"        <string name="filename" value="{file}"/>"#);
                 ("ply", keys)
             }
@@ -336,17 +339,16 @@ impl Writer<'_> {
     </shape>
 "#
         );
-        Ok(())
     }
 
-    /// Writes a mesh; its path beside the scene.
-    fn mesh(&self, name: &str, ply: &Ply) -> anyhow::Result<String> {
+    /// Adds a mesh; its path beside the scene.
+    fn mesh(&mut self, name: &str, ply: &Ply) -> String {
         let file = format!("meshes/{name}.ply");
-        ply.write(&self.folder.join(&file))?;
-        Ok(file)
+        self.files.add(file.as_str(), ply.bytes());
+        file
     }
 
-    /// Writes a linear picture, rows from the top; its path beside the scene.
+    /// Adds a linear picture, rows from the top; its path beside the scene.
     fn texture(&mut self, size: [u32; 2], texels: Vec<Vec3>) -> anyhow::Result<String> {
         let file = format!("textures/{}.exr", self.textures);
         self.textures += 1;
@@ -357,7 +359,8 @@ impl Writer<'_> {
             motion: None,
             names: Vec::new(),
         };
-        picture.write_exr(self.folder.join(&file))?;
+        let bytes = picture.to_exr(&self.folder.join(&file))?;
+        self.files.add(file.as_str(), bytes);
         Ok(file)
     }
 }

@@ -1,9 +1,6 @@
 //! Binary PLY files: triangles whose corners share what is bitwise equal.
 
 use std::collections::HashMap;
-use std::path::Path;
-
-use catoptric_frame::write_whole;
 
 /// Triangles with the same float properties at each corner.
 pub struct Ply {
@@ -46,7 +43,8 @@ impl Ply {
         })
     }
 
-    fn bytes(&self) -> Vec<u8> {
+    /// The file.
+    pub fn bytes(&self) -> Vec<u8> {
         let mut text = format!(
             "ply\nformat binary_little_endian 1.0\nelement vertex {}\n",
             self.known.len()
@@ -66,11 +64,6 @@ impl Ply {
                 .for_each(|index| bytes.extend(index.to_le_bytes()));
         }
         bytes
-    }
-
-    /// Writes the file whole or not at all.
-    pub fn write(&self, path: &Path) -> anyhow::Result<()> {
-        Ok(write_whole(path, &self.bytes())?)
     }
 }
 

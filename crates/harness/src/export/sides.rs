@@ -75,11 +75,13 @@ pub fn visible(mesh: &Mesh, viewpoints: &Viewpoints) -> Vec<(usize, [Vec3; 3], b
         } else {
             Vec3::ZERO
         };
+        let ahead = corners.map(|corner| corner + offset);
         if front {
-            faces.push((index, corners.map(|corner| corner + offset), false));
+            faces.push((index, ahead, false));
         }
         if back {
-            let [a, b, c] = corners.map(|corner| corner - offset);
+            // As far behind as the other is ahead, after rounding: the middle is the corner.
+            let [a, b, c] = [0, 1, 2].map(|at| corners[at] - (ahead[at] - corners[at]));
             faces.push((index, [a, c, b], true));
         }
     }

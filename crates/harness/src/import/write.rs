@@ -5,13 +5,14 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use catoptric_frame::{Image, write_png16, write_whole};
+use catoptric_frame::{Image, png16};
 use catoptric_scene::model::{PictureSource, Triangles};
 use catoptric_scene::{Background, Fov};
 use glam::{DMat4, Vec3};
 
 use crate::exit::bad_input;
 use crate::export::ply::Ply;
+use crate::output::Bundle;
 
 use super::found::{Coat, Form, Found, Thing};
 use super::toml::{color, number, quoted, vector};
@@ -27,15 +28,15 @@ const TEXTURES: &str = "textures";
 /// Picture size where a file says none.
 const RESOLUTION: [u32; 2] = [640, 480];
 
-/// Writes everything; `scene.toml` is there only when all else is. The answer is its path, and what
-/// could not be written as it is.
+/// Writes everything at once: an earlier import stands until then. The answer is the path of
+/// `scene.toml`, and what could not be written as it is.
 ///
 /// # Errors
 /// The folder has something in it already, or cannot be written into, or a picture cannot be copied.
 pub fn write(found: &Found, from: &Path, folder: &Path) -> anyhow::Result<(PathBuf, Vec<String>)> {
-    let failed = |what: &Path| format!("cannot make the folder {}", what.display());
     if folder.exists() {
-        let mut entries = std::fs::read_dir(folder).with_context(|| failed(folder))?;
+        let entries = std::fs::read_dir(folder);
+        let mut entries = entries.with_context(|| format!("cannot read {}", folder.display()))?;
         let ours = folder.join(SCENE_FILE).is_file();
         if entries.next().is_some() && !ours {
             return Err(bad_input(format!(
@@ -44,12 +45,15 @@ pub fn write(found: &Found, from: &Path, folder: &Path) -> anyhow::Result<(PathB
             )));
         }
     }
-    for part in [MESHES, TEXTURES] {
-        let part = folder.join(part);
-        std::fs::create_dir_all(&part).with_context(|| failed(&part))?;
-    }
+    let (files, notes) = files(found, from)?;
+    files.put(folder)?;
+    Ok((folder.join(SCENE_FILE), notes))
+}
+
+/// All files, the scene last, and what could not be written as it is.
+fn files(found: &Found, from: &Path) -> anyhow::Result<(Bundle, Vec<String>)> {
     let mut writer = Writer {
-        folder,
+        bundle: Bundle::default(),
         text: String::new(),
         notes: Vec::new(),
         files: HashMap::new(),
@@ -72,24 +76,24 @@ pub fn write(found: &Found, from: &Path, folder: &Path) -> anyhow::Result<(PathB
     }
     let mirrors = found.things.iter().filter(|thing| thing.is_mirror);
     for (place, thing) in mirrors.enumerate() {
-        writer.mirror(place, thing)?;
+        writer.mirror(place, thing);
     }
-    let path = folder.join(SCENE_FILE);
-    write_whole(&path, writer.text.as_bytes())?;
-    Ok((path, writer.notes))
+    let mut files = writer.bundle;
+    files.add(SCENE_FILE, writer.text.into_bytes());
+    Ok((files, writer.notes))
 }
 
-struct Writer<'f> {
-    folder: &'f Path,
+struct Writer {
+    bundle: Bundle,
     text: String,
     /// What is not as it was, a sentence each.
     notes: Vec<String>,
-    /// Pictures that were written, by what they are.
+    /// Pictures that were added, by what they are.
     files: HashMap<Vec<u8>, String>,
     textures: usize,
 }
 
-impl Writer<'_> {
+impl Writer {
     fn line(&mut self, line: &str) {
         self.text += line;
         self.text.push('\n');
@@ -166,7 +170,7 @@ impl Writer<'_> {
                 matrix.w_axis = center.extend(1.0);
                 let mut ball = shapes::ball(false);
                 ball.transform(&matrix);
-                self.mesh("object", place, &ball, true, false)?;
+                self.mesh("object", place, &ball, true, false);
                 self.rounded(first);
             }
             Form::Rectangle { center, axes } => {
@@ -174,11 +178,11 @@ impl Writer<'_> {
                 matrix.w_axis = center.extend(1.0);
                 let mut square = shapes::square();
                 square.transform(&matrix);
-                self.mesh("object", place, &square, true, false)?;
+                self.mesh("object", place, &square, true, false);
             }
             Form::Mesh { mesh, .. } => {
                 let with_uvs = !matches!(first.coat, Coat::Color(_) | Coat::Vertex);
-                self.mesh("object", place, mesh, with_uvs, first.coat == Coat::Vertex)?;
+                self.mesh("object", place, mesh, with_uvs, first.coat == Coat::Vertex);
             }
         }
         match &first.coat {
@@ -210,7 +214,7 @@ impl Writer<'_> {
         ));
     }
 
-    fn mirror(&mut self, place: usize, thing: &Thing) -> anyhow::Result<()> {
+    fn mirror(&mut self, place: usize, thing: &Thing) {
         self.text += "\n[[mirror]]\n";
         self.line(&format!("name = {}", quoted(&thing.name)));
         match &thing.form {
@@ -235,13 +239,12 @@ impl Writer<'_> {
                 self.line(&format!("size = [{}, {}]", size[0], size[1]));
             }
             Form::Mesh { mesh, flat } => {
-                self.mesh("mirror", place, mesh, false, false)?;
+                self.mesh("mirror", place, mesh, false, false);
                 if *flat && mesh.normals.is_empty() {
                     self.line("facets = true");
                 }
             }
         }
-        Ok(())
     }
 
     /// Writes a mesh and the line that names it.
@@ -252,7 +255,7 @@ impl Writer<'_> {
         mesh: &Triangles,
         with_uvs: bool,
         with_colors: bool,
-    ) -> anyhow::Result<()> {
+    ) {
         let with_normals = kind == "mirror" && !mesh.normals.is_empty();
         let with_uvs = with_uvs && !mesh.uvs.is_empty();
         let with_colors = with_colors && !mesh.colors.is_empty();
@@ -282,9 +285,8 @@ impl Writer<'_> {
             ply.triangle([&a, &b, &c]);
         }
         let file = format!("{MESHES}/{kind}-{}.ply", place + 1);
-        ply.write(&self.folder.join(&file))?;
+        self.bundle.add(file.as_str(), ply.bytes());
         self.line(&format!("mesh = {}", quoted(&file)));
-        Ok(())
     }
 
     /// Things of several materials as one OBJ with its MTL.
@@ -353,8 +355,8 @@ impl Writer<'_> {
             uvs += 3 * mesh.uvs.len() as u64;
         }
         for (ending, text) in [("mtl", mtl), ("obj", obj)] {
-            let path = self.folder.join(format!("{MESHES}/{stem}.{ending}"));
-            write_whole(path, text.as_bytes())?;
+            self.bundle
+                .add(format!("{MESHES}/{stem}.{ending}"), text.into_bytes());
         }
         Ok(format!("{MESHES}/{stem}.obj"))
     }
@@ -370,7 +372,8 @@ impl Writer<'_> {
                 let image =
                     Image::from_vec(*size, texels.iter().map(|color| *color / most).collect());
                 let file = self.next("png");
-                write_png16(&image, self.folder.join(&file))?;
+                let bytes = png16(&image, Path::new(&file))?;
+                self.bundle.add(file.as_str(), bytes);
                 Ok((Some(file), Vec3::splat(most)))
             }
             Coat::Picture { tint, source } => {
@@ -394,7 +397,7 @@ impl Writer<'_> {
                     return Ok((Some(known.clone()), *tint));
                 }
                 let file = self.next(ending);
-                write_whole(self.folder.join(&file), &bytes)?;
+                self.bundle.add(file.as_str(), bytes.clone());
                 self.files.insert(bytes, file.clone());
                 Ok((Some(file), *tint))
             }

@@ -1,5 +1,6 @@
 //! Where results go, tried before any work is done.
 
+mod bundle;
 mod draft;
 
 use std::path::Path;
@@ -9,6 +10,7 @@ use catoptric_frame::FrameError;
 
 use crate::exit::bad_input;
 
+pub use self::bundle::Bundle;
 pub use self::draft::{Draft, FIGURES, PICTURES};
 
 /// Refuses a file that could not be written, before any work is done.

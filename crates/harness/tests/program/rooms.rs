@@ -19,8 +19,8 @@ const ROOMS: [(&str, &[&str]); 13] = [
         ],
     ),
     ("check", &["exit", "input", "options"]),
-    ("export", &[]),
-    ("import", &["exit", "export", "input"]),
+    ("export", &["output"]),
+    ("import", &["exit", "export", "input", "output"]),
     (
         "cli",
         &[

@@ -61,6 +61,7 @@ pub use load_options::LoadOptions;
 pub use mesh::{Material, Mesh, Paint};
 pub use mirror::Mirror;
 pub use motion::{CameraPath, Motion, Move, Subject};
+pub use picture::linear_from_srgb;
 pub use pose::Pose;
 pub use random::Random;
 pub use scene::{Background, Object, Scene};

@@ -154,7 +154,7 @@ enum Transfer {
 }
 
 /// The linear value of an encoded one, both 0 to 1 (IEC 61966-2-1).
-pub(crate) fn linear_from_srgb(value: f64) -> f64 {
+pub fn linear_from_srgb(value: f64) -> f64 {
     Transfer::Srgb.linear(value)
 }
 

@@ -225,6 +225,8 @@ mod tests {
             let text = overview(&all, columns);
             for line in text.lines() {
                 assert!(line.chars().count() <= columns, "{line}");
+                // In a terminal of the usual width nothing is cut.
+                assert!(columns < 80 || !line.contains('…'), "{line}");
             }
             for info in &all {
                 let start = format!("  {} ", info.name);

@@ -76,7 +76,7 @@ fn run(Cli { command, common }: Cli) -> anyhow::Result<Outcome> {
         Command::Export(args) => export::run(&args, &common),
         Command::Import(args) => import::run(&args, &common),
         Command::Check(args) => check::run(&args, &common),
-        Command::Completions(args) => completions::run(&args, unused::command()),
+        Command::Completions(args) => completions::run(&args, unused::for_shells()),
         Command::Doctor => doctor::run(&common),
     }
 }

@@ -71,7 +71,28 @@ fn instead(command: &str, option: &str) -> &'static str {
 
 /// The command line, where each command's help has the common options that it uses and no others.
 pub fn command() -> clap::Command {
+    with_common(Cli::command(), |arg, used| match used {
+        true => None,
+        false => Some(arg.clone().hide(true)),
+    })
+}
+
+/// The command line for shells, which offer also what is hidden: a command has no other common options
+/// than those that it uses.
+pub fn for_shells() -> clap::Command {
     let all = Cli::command();
+    let common: Vec<_> = all
+        .get_arguments()
+        .filter(|arg| arg.is_global_set())
+        .map(|arg| arg.get_id().clone())
+        .collect();
+    let all = with_common(all, |arg, used| used.then(|| arg.clone().global(false)));
+    let of_its_own = |all: clap::Command, id| all.mut_arg(id, |arg| arg.global(false));
+    common.into_iter().fold(all, of_its_own)
+}
+
+/// Gives each command what `of` makes of a common option that it uses or not.
+fn with_common(all: clap::Command, of: impl Fn(&Arg, bool) -> Option<Arg>) -> clap::Command {
     let common: Vec<Arg> = all
         .get_arguments()
         .filter(|arg| arg.is_global_set())
@@ -83,12 +104,11 @@ pub fn command() -> clap::Command {
         .collect();
     names.into_iter().fold(all, |all, name| {
         let used = used(&name, None);
-        let hidden: Vec<Arg> = common
+        let args: Vec<Arg> = common
             .iter()
-            .filter(|arg| !used.contains(&arg.get_id().as_str()))
-            .map(|arg| arg.clone().hide(true))
+            .filter_map(|arg| of(arg, used.contains(&arg.get_id().as_str())))
             .collect();
-        all.mut_subcommand(name, |command| command.args(hidden))
+        all.mut_subcommand(name, |command| command.args(args))
     })
 }
 
@@ -138,6 +158,23 @@ mod tests {
                     line.trim_start().starts_with('-') && words.into_iter().any(|w| w == option)
                 });
                 assert_eq!(shown, used.contains(&id), "{name}: {option}\n{help}");
+            }
+        }
+    }
+
+    #[test]
+    fn shells_offer_what_a_command_uses_and_nothing_else() {
+        let mut all = for_shells();
+        all.build();
+        for command in all.get_subcommands() {
+            let name = command.get_name();
+            if name == "help" {
+                continue;
+            }
+            let used = used(name, None);
+            let has = |id: &str| command.get_arguments().any(|arg| arg.get_id() == id);
+            for id in COMMON.map(|(id, _)| id).into_iter().chain([QUIET]) {
+                assert_eq!(has(id), used.contains(&id), "{name}: {id}");
             }
         }
     }

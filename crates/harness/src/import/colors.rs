@@ -1,18 +1,11 @@
 //! Colours of other renderers as linear RGB.
 
+use catoptric_scene::linear_from_srgb;
 use glam::{DMat3, DVec3, Vec3};
-
-/// The linear value of an sRGB one, both 0 to 1 (IEC 61966-2-1).
-fn linear(value: f64) -> f64 {
-    match value <= 0.04045 {
-        true => value / 12.92,
-        false => ((value + 0.055) / 1.055).powf(2.4),
-    }
-}
 
 /// sRGB values as a linear colour.
 pub fn of_srgb(color: Vec3) -> Vec3 {
-    color.map(|channel| linear(f64::from(channel)) as f32)
+    color.map(|channel| linear_from_srgb(f64::from(channel)) as f32)
 }
 
 /// `#rrggbb`, in sRGB.

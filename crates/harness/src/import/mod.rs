@@ -49,9 +49,13 @@ pub fn read(path: &Path, choice: &Choice) -> anyhow::Result<Found> {
         return Err(bad_input(format!(
             "{}: no surface is left{}",
             path.display(),
-            match found.left_out.first() {
-                Some(what) => format!(": left out was {what}"),
-                None => String::new(),
+            match &found.left_out[..] {
+                [] => String::new(),
+                [one] => format!(": left out was {one}"),
+                [first @ .., last] => {
+                    let some = &first[first.len().saturating_sub(MOST_LEFT_OUT)..];
+                    format!(": left out were {}; {last}", some.join("; "))
+                }
             }
         )));
     }
@@ -121,5 +125,7 @@ fn choose(things: &mut [Thing], names: &[String]) -> anyhow::Result<()> {
     Ok(())
 }
 
+/// Most of what is left out in a message, before the last: surfaces come after their materials.
+const MOST_LEFT_OUT: usize = 7;
 /// Most names in a message.
 const MOST_NAMES: usize = 40;

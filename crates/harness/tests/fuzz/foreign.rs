@@ -115,58 +115,123 @@ fn changed(random: &mut Random, bytes: Vec<u8>) -> Vec<u8> {
     }
 }
 
+/// What a scene of Mitsuba begins with.
 const XML: &str = r##"<scene version="3.0.0"><default name="w" value="64"/>
 <sensor type="perspective"><transform name="to_world"><lookat origin="0, 1, 5" target="0, 0, 0" up="0, 1, 0"/></transform>
 <float name="fov" value="40"/><film type="hdrfilm"><integer name="width" value="$w"/></film></sensor>
 <bsdf type="twosided" id="gold"><bsdf type="roughconductor"><float name="alpha" value="0.05"/></bsdf></bsdf>
 <texture type="checkerboard" id="check"><rgb name="color0" value="0.1, 0.2, 0.3"/><transform name="to_uv"><scale x="4" y="4"/></transform></texture>
 <bsdf type="diffuse" id="floor"><ref name="reflectance" id="check"/></bsdf>
-<shape type="sphere"><point name="center" x="0" y="1" z="0"/><float name="radius" value="0.5"/><ref id="gold"/></shape>
-<shape type="rectangle"><transform name="to_world"><rotate x="1" angle="-90"/><scale value="3"/></transform><ref id="floor"/></shape>
-<shape type="cube"><transform name="to_world"><matrix value="1 0 0 2 0 1 0 0 0 0 1 0 0 0 0 1"/></transform>
-<bsdf type="diffuse"><rgb name="reflectance" value="#ff8000"/></bsdf></shape>
-<shape type="disk"><boolean name="flip_normals" value="true"/></shape>
-<shape type="ply"><string name="filename" value="m.ply"/></shape>
-<shape type="shapegroup" id="g"><shape type="sphere"/></shape>
-<shape type="instance"><ref id="g"/><transform name="to_world"><scale x="1" y="2" z="1"/></transform></shape>
-<emitter type="constant"><rgb name="radiance" value="0.5"/></emitter></scene>"##;
+<shape type="shapegroup" id="g"><shape type="sphere"><ref id="gold"/></shape></shape>
+"##;
+
+/// What may follow.
+const XML_PARTS: [&str; 11] = [
+    r##"<shape type="sphere"><point name="center" x="0" y="1" z="0"/><float name="radius" value="0.5"/><ref id="gold"/></shape>"##,
+    r##"<shape type="rectangle"><transform name="to_world"><rotate x="1" angle="-90"/><scale value="3"/></transform><ref id="floor"/></shape>"##,
+    r##"<shape type="cube"><transform name="to_world"><matrix value="1 0 0 2 0 1 0 0 0 0 1 0 0 0 0 1"/></transform>
+<bsdf type="diffuse"><rgb name="reflectance" value="#ff8000"/></bsdf></shape>"##,
+    r##"<shape type="disk"><boolean name="flip_normals" value="true"/></shape>"##,
+    r##"<shape type="ply"><string name="filename" value="m.ply"/><boolean name="face_normals" value="true"/></shape>"##,
+    r##"<shape type="obj"><string name="filename" value="m.obj"/><ref id="gold"/></shape>"##,
+    r##"<shape type="instance"><ref id="g"/><transform name="to_world"><scale x="1" y="2" z="1"/></transform></shape>"##,
+    r##"<emitter type="constant"><rgb name="radiance" value="0.5"/></emitter>"##,
+    r##"<shape type="rectangle" id="lamp"><emitter type="area"><spectrum name="radiance" value="400:1, 500:2, 700:3"/></emitter></shape>"##,
+    r##"<shape type="rectangle"><bsdf type="principled"><texture name="base_color" type="bitmap"><string name="filename" value="t.png"/>
+<transform name="to_uv"><scale x="2" y="2"/></transform></texture><float name="metallic" value="0.2"/></bsdf></shape>"##,
+    r##"<include filename="more.xml"/>"##,
+];
+
+/// A shape that becomes tens of thousands of triangles, which take their time.
+const XML_ROUND: &str = r##"<shape type="sphere"><transform name="to_world"><scale x="1" y="2" z="3"/></transform></shape>"##;
 
 const PBRT: &str = r##"LookAt 0 1 5  0 0 0  0 1 0
 Camera "perspective" "float fov" 40
 Film "rgb" "integer xresolution" [ 64 ] "integer yresolution" [ 48 ]
 Include "more.pbrt"
 WorldBegin
-LightSource "infinite" "rgb L" [ 0.1 0.2 0.3 ]
 Texture "check" "spectrum" "checkerboard" "float uscale" 4 "float vscale" 4 "rgb tex1" [1 0 0]
 MakeNamedMaterial "floor" "string type" "diffuse" "texture reflectance" "check"
-AttributeBegin
-  Material "conductor" "float roughness" 0.01
-  Translate 0 1 0
-  Shape "sphere" "float radius" 0.5
-AttributeEnd
-NamedMaterial "floor"
-Shape "trianglemesh" "point3 P" [ -3 0 -3  3 0 -3  3 0 3  -3 0 3 ] "integer indices" [ 0 1 2 0 2 3 ]
-  "point2 uv" [ 0 0 1 0 1 1 0 1 ] "normal N" [ 0 1 0 0 1 0 0 1 0 0 1 0 ]
 ObjectBegin "thing"
   Shape "plymesh" "string filename" "m.ply"
   ReverseOrientation
   Shape "disk" "float height" 0.2
 ObjectEnd
-Rotate 30 0 1 0
-ObjectInstance "thing"
-Scale 1 2 1 ObjectInstance "thing"
-Shape "bilinearmesh" "point3 P" [ 0 0 0 1 0 0 0 1 0 1 1 0 ]
 "##;
+
+const PBRT_PARTS: [&str; 9] = [
+    r##"LightSource "infinite" "rgb L" [ 0.1 0.2 0.3 ]"##,
+    r##"AttributeBegin
+  Material "conductor" "float roughness" 0.01
+  Translate 0 1 0
+  Shape "sphere" "float radius" 0.5
+AttributeEnd"##,
+    r##"NamedMaterial "floor"
+Shape "trianglemesh" "point3 P" [ -3 0 -3  3 0 -3  3 0 3  -3 0 3 ] "integer indices" [ 0 1 2 0 2 3 ]
+  "point2 uv" [ 0 0 1 0 1 1 0 1 ] "normal N" [ 0 1 0 0 1 0 0 1 0 0 1 0 ]"##,
+    r##"ObjectInstance "thing""##,
+    r##"Rotate 30 0 1 0
+Scale 1 2 1 ObjectInstance "thing""##,
+    r##"Shape "bilinearmesh" "point3 P" [ 0 0 0 1 0 0 0 1 0 1 1 0 ]"##,
+    r##"Texture "picture" "spectrum" "imagemap" "string filename" "t.png" "float uscale" [ 2 ]
+Material "coateddiffuse" "texture reflectance" "picture"
+Shape "bilinearmesh" "point3 P" [ 0 0 0 1 0 0 0 1 0 1 1 0 ]"##,
+    r##"AttributeBegin
+  CoordSysTransform "camera" ConcatTransform [ 1 0 0 0 0 1 0 0 0 0 1 0 0 0 2 1 ]
+  AreaLightSource "diffuse" "blackbody L" 3000
+  Shape "trianglemesh" "point3 P" [ 0 0 0 1 0 0 0 1 0 ] "integer indices" [ 0 1 2 ]
+AttributeEnd"##,
+    r##"Material "conductor" "spectrum eta" "metal-Cu-eta" "spectrum k" [ 400 1 700 2 ]
+Shape "loopsubdiv" "point3 P" [ 0 0 0 1 0 0 0 1 0 ] "integer indices" [ 0 1 2 ] "integer levels" 2"##,
+];
+
+const PBRT_ROUND: &str = r##"Scale 1 2 3 Material "diffuse" Shape "sphere""##;
+
+/// A text of the first part and some of the others; rarely of the last, which is slow.
+fn some(random: &mut Random, first: &str, parts: &[&str], round: &str) -> String {
+    let mut text = first.to_owned();
+    for part in parts {
+        if once_in(random, 2) {
+            text += part;
+            text.push('\n');
+        }
+    }
+    if once_in(random, 64) {
+        text += round;
+        text.push('\n');
+    }
+    text
+}
 
 /// A scene of another renderer.
 pub fn import(seed: u64) -> Input {
     let mut random = random(seed);
-    let (name, text) = match random.below(2) {
-        0 => ("s.xml", XML),
-        _ => ("s.pbrt", PBRT),
+    let random = &mut random;
+    let data = base64::engine::general_purpose::STANDARD.encode(square());
+    let uri = format!("data:application/octet-stream;base64,{data}");
+    let (name, bytes): (&'static str, Vec<u8>) = match random.below(8) {
+        0..=3 => {
+            let text = some(random, XML, &XML_PARTS, XML_ROUND);
+            ("s.xml", format!("{text}</scene>\n").into_bytes())
+        }
+        4..=6 => (
+            "s.pbrt",
+            some(random, PBRT, &PBRT_PARTS, PBRT_ROUND).into_bytes(),
+        ),
+        _ => match once_in(random, 2) {
+            true => ("s.gltf", gltf(Some(uri)).into_bytes()),
+            false => ("s.glb", glb()),
+        },
     };
-    let mut files = vec![(name, changed(&mut random, text.as_bytes().to_vec()))];
-    files.push(("m.ply", PLY.as_bytes().to_vec()));
-    files.push(("more.pbrt", b"Sampler \"halton\"\n".to_vec()));
-    Input(files)
+    Input(vec![
+        (name, changed(random, bytes)),
+        ("m.ply", PLY.as_bytes().to_vec()),
+        ("m.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n".to_vec()),
+        ("t.png", super::inputs::PICTURES[0].clone()),
+        ("more.pbrt", b"Sampler \"halton\"\n".to_vec()),
+        (
+            "more.xml",
+            b"<scene version=\"3.0.0\"><shape type=\"cube\"/></scene>".to_vec(),
+        ),
+    ])
 }

@@ -342,7 +342,7 @@ pub fn mesh(seed: u64) -> Input {
 }
 
 /// Good pictures of both kinds, in several layouts of their texels.
-static PICTURES: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
+pub static PICTURES: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
     let rgb = image::RgbImage::from_fn(9, 5, |x, y| image::Rgb([x as u8 * 20, y as u8 * 40, 99]));
     let rgb = image::DynamicImage::from(rgb);
     let layouts = [

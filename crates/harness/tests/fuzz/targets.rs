@@ -86,7 +86,7 @@ pub const TARGETS: [Target; 8] = [
         make: foreign::import,
         run: |folder| {
             // The folder is one worker's: the file of the input before is taken away.
-            let files = ["s.xml", "s.pbrt"].map(|name| folder.join(name));
+            let files = ["s.xml", "s.pbrt", "s.gltf", "s.glb"].map(|name| folder.join(name));
             let choice = import::Choice {
                 roughness: 0.15,
                 mirrors: Vec::new(),

@@ -105,13 +105,13 @@ pub fn read<'f>(
         "plastic" | "roughplastic" => made.coat = color(reader, "diffuse_reflectance")?,
         "principled" | "principledthin" => {
             made.coat = color(reader, "base_color")?;
-            let metal = reader.number(file, node, "metallic")?.unwrap_or(0.0);
-            let roughness = reader.number(file, node, "roughness")?.unwrap_or(0.5);
+            let metal = reader.untextured(file, node, "metallic")?.unwrap_or(0.0);
+            let roughness = reader.untextured(file, node, "roughness")?.unwrap_or(0.5);
             made.is_mirror = metal >= 0.5 && roughness <= reader.choice.roughness;
         }
         "conductor" | "dielectric" | "thindielectric" => made.is_mirror = true,
         "roughconductor" | "roughdielectric" => {
-            let alpha = reader.number(file, node, "alpha")?.unwrap_or(0.1);
+            let alpha = reader.untextured(file, node, "alpha")?.unwrap_or(0.1);
             made.is_mirror = alpha <= reader.choice.roughness;
             made.coat = color(reader, "specular_reflectance")?;
         }

@@ -92,6 +92,22 @@ impl Reader<'_> {
         number.map(Some).ok_or_else(|| file.error(node, &message))
     }
 
+    /// The number of a parameter that may be a texture, which is left out.
+    pub fn untextured<'f>(
+        &mut self,
+        file: File<'f>,
+        of: Node<'f, 'f>,
+        name: &str,
+    ) -> anyhow::Result<Option<f64>> {
+        match child(of, name) {
+            Some(node) if ["texture", "ref"].contains(&node.tag_name().name()) => {
+                self.leave_out(file, node, ": a texture of what is no colour");
+                Ok(None)
+            }
+            _ => self.number(file, of, name),
+        }
+    }
+
     pub fn flag<'f>(&self, file: File<'f>, of: Node<'f, 'f>, name: &str) -> anyhow::Result<bool> {
         let Some(node) = child(of, name) else {
             return Ok(false);

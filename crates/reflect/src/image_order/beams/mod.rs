@@ -66,7 +66,7 @@ options! {
 impl Named for Beams {
     const INFO: Info = Info {
         name: "beams",
-        what: "triangles sent down a hierarchy over the mirror's rays: exact on any mirror",
+        what: "triangles sent down a hierarchy over the rays, exact",
         paper: "this project",
     };
 }

@@ -35,7 +35,7 @@ options! {
 impl Named for EnvironmentMap {
     const INFO: Info = Info {
         name: "environment-map",
-        what: "one cube map from each mirror's centre, looked up in the reflected direction",
+        what: "one cube map a mirror, looked up by direction alone",
         paper: "baseline",
     };
 }

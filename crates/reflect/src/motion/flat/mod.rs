@@ -11,7 +11,7 @@ options! {
 impl Named for Flat {
     const INFO: Info = Info {
         name: "motion-flat",
-        what: "the motion of the virtual image behind the tangent plane: a flat mirror's",
+        what: "motion of the virtual image behind the tangent plane",
         paper: "baseline",
     };
 }

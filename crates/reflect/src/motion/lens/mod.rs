@@ -18,7 +18,7 @@ options! {
 impl Named for Lens {
     const INFO: Info = Info {
         name: "motion-lens",
-        what: "the motion of the virtual image behind a thin lens of the mirror's curvature",
+        what: "motion of the virtual image behind a thin lens",
         paper: "denoisers (NRD)",
     };
 }

@@ -19,7 +19,7 @@ options! {
 impl Named for Newton {
     const INFO: Info = Info {
         name: "motion-newton",
-        what: "where the reflection point of the frame before truly was, by Newton's method on its G-buffer",
+        what: "motion of the true reflection point, by Newton's method",
         paper: "this project",
     };
 }

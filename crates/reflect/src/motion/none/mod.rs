@@ -11,7 +11,7 @@ options! {
 impl Named for None {
     const INFO: Info = Info {
         name: "motion-none",
-        what: "no motion at all: the reflection is taken to stay where it is in the image",
+        what: "no motion: the reflection stays where it is",
         paper: "baseline",
     };
 }

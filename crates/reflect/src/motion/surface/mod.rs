@@ -11,7 +11,7 @@ options! {
 impl Named for Surface {
     const INFO: Info = Info {
         name: "motion-surface",
-        what: "the motion of the mirror's surface: the reflection as if painted on it",
+        what: "motion of the mirror's surface, as if painted on it",
         paper: "baseline",
     };
 }

@@ -86,7 +86,7 @@ options! {
 impl Named for Grid {
     const INFO: Info = Info {
         name: "+grid",
-        what: "interpolates vertices between the virtual images of a grid around each mesh",
+        what: "interpolates between the virtual images of a coarse grid",
         paper: "Estalella et al. 2005",
     };
 }

@@ -99,7 +99,7 @@ options! {
 impl Named for SweptBoxes {
     const INFO: Info = Info {
         name: "swept-boxes",
-        what: "watertight hierarchy over the cells between reflected rays, all solutions",
+        what: "watertight hierarchy over cells between rays, all solutions",
         paper: "this project",
     };
 }

@@ -180,6 +180,14 @@ mod tests {
     }
 
     #[test]
+    fn numbers_stay_as_they_were() {
+        for text in ["0.9391891891891893", "0.19137303494853714"] {
+            let number: Value = serde_json::from_str(text).unwrap();
+            assert_eq!(number.to_string(), text);
+        }
+    }
+
+    #[test]
     fn one_row_twice_is_refused() {
         let folder = tempfile::tempdir().unwrap();
         let paths = ["a", "b"].map(|name| record(folder.path(), name, "x", None, &["t"]));

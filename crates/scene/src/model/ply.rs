@@ -2,7 +2,8 @@
 //!
 //! Positions, normals and texture coordinates of vertices (`x y z`, `nx ny nz`, `u v` or `s t`), of
 //! faces their corners and, where there are any, texture coordinates of each corner (`texcoord`). Colours
-//! are `red green blue` or `r g b`: bytes are sRGB as in a picture, other numbers are linear.
+//! are `red green blue`, `r g b` or `color_0 color_1 color_2`: bytes are sRGB as in a picture, other
+//! numbers are linear.
 
 use std::io::BufReader;
 use std::path::Path;
@@ -28,9 +29,9 @@ const NAMES: [&[&str]; 11] = [
     &["nz"],
     &["u", "s", "texture_u", "texture_s"],
     &["v", "t", "texture_v", "texture_t"],
-    &["r", "red", "diffuse_red"],
-    &["g", "green", "diffuse_green"],
-    &["b", "blue", "diffuse_blue"],
+    &["r", "red", "diffuse_red", "color_0"],
+    &["g", "green", "diffuse_green", "color_1"],
+    &["b", "blue", "diffuse_blue", "color_2"],
 ];
 const NORMAL: usize = 3;
 const UV: usize = 6;

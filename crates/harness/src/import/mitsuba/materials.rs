@@ -33,16 +33,25 @@ pub struct Laid {
 }
 
 impl Laid {
+    /// Why it is not laid on this mesh: what the mesh has nothing of.
+    pub fn lacks(&self, mesh: &Triangles) -> Option<&'static str> {
+        match self.coat {
+            Coat::Color(_) => None,
+            Coat::Vertex if mesh.colors.is_empty() => Some("colours"),
+            Coat::Vertex => None,
+            _ if mesh.uvs.is_empty() => Some("texture coordinates"),
+            _ => None,
+        }
+    }
+
+    /// Whether it is one colour everywhere.
+    pub fn is_plain(&self) -> bool {
+        matches!(self.coat, Coat::Color(_))
+    }
+
     /// Moves the texture coordinates of a mesh as this wants them.
     pub fn lay(self, mesh: &mut Triangles) -> Coat {
-        let needs = matches!(
-            self.coat,
-            Coat::Picture { .. } | Coat::Texels { .. } | Coat::Checker { .. }
-        );
-        if needs && mesh.uvs.is_empty() {
-            return self.color();
-        }
-        if self.coat == Coat::Vertex && mesh.colors.is_empty() {
+        if self.lacks(mesh).is_some() {
             return self.color();
         }
         if self.to_uv != DMat4::IDENTITY {

@@ -272,6 +272,17 @@ impl Reader<'_> {
                 sheets::join(mesh);
             }
         }
+        if let (false, Some(coat)) = (material.is_mirror, &material.coat) {
+            let lacking = match &form {
+                Form::Mesh { mesh, .. } => coat.lacks(mesh),
+                _ if coat.is_plain() => None,
+                _ => Some("texture coordinates"),
+            };
+            if let Some(lacking) = lacking {
+                let why = format!(": its texture; it has one colour, since it has no {lacking}");
+                self.leave_out(file, node, &why);
+            }
+        }
         let coat = match (material.coat, &mut form) {
             (Some(coat), Form::Mesh { mesh, .. }) => coat.lay(mesh),
             (Some(coat), _) => coat.color(),

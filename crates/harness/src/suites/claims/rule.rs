@@ -149,7 +149,14 @@ impl Shown {
             Self::Power => format!("the power {}", short(value)),
             Self::In("") => short(value),
             Self::In("°") => format!("{}°", short(value)),
-            Self::In(unit) => format!("{} {unit}", short(value)),
+            Self::In(unit) => {
+                let number = short(value);
+                let unit = match number.as_str() {
+                    "1" if !unit.contains(' ') => unit.trim_end_matches('s'),
+                    _ => unit,
+                };
+                format!("{number} {unit}")
+            }
         }
     }
 
@@ -317,4 +324,17 @@ fn steps(curve: &[(f64, Interval)]) -> impl Iterator<Item = Interval> {
     curve
         .windows(2)
         .filter_map(|pair| pair[1].1.over(pair[0].1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_of_a_kind_is_no_plural() {
+        let shown = |unit, value| Shown::In(unit).write(value);
+        assert_eq!(shown("steps", 1.0), "1 step");
+        assert_eq!(shown("steps", 2.0), "2 steps");
+        assert_eq!(shown("px", 1.0), "1 px");
+    }
 }

@@ -120,10 +120,7 @@ impl Provisional {
     /// # Errors
     /// It is there already, or cannot be made.
     pub fn folder(path: &Path) -> io::Result<Self> {
-        let mut list = list();
-        fs::create_dir(path)?;
-        let unfinished = Unfinished::Folder(path.to_owned());
-        Ok(Self::of(&mut list, path, unfinished))
+        Self::make(path, Unfinished::Folder(path.to_owned()))
     }
 
     /// Makes a folder that is removed unless something is in it; its parent must be there.
@@ -131,9 +128,12 @@ impl Provisional {
     /// # Errors
     /// As of [`Provisional::folder`].
     pub fn folder_for_others(path: &Path) -> io::Result<Self> {
+        Self::make(path, Unfinished::EmptyFolder(path.to_owned()))
+    }
+
+    fn make(path: &Path, unfinished: Unfinished) -> io::Result<Self> {
         let mut list = list();
         fs::create_dir(path)?;
-        let unfinished = Unfinished::EmptyFolder(path.to_owned());
         Ok(Self::of(&mut list, path, unfinished))
     }
 

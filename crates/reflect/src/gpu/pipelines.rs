@@ -29,13 +29,14 @@ impl Deref for Module {
 /// Links and compiles a program of `shaders/` with the given features on.
 pub(crate) fn module(gpu: &Gpu, program: &str, features: &[&str]) -> Result<Module, BuildError> {
     let text = shaders::link(program, features).map_err(BuildError::Shader)?;
+    let invalid = |error| BuildError::Shader(format!("{program}.wesl: {error}"));
+    let workgroups = shaders::workgroup_sizes(&text).map_err(invalid)?;
     let module = gpu
         .device
         .create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(program),
-            source: wgpu::ShaderSource::Wgsl(text.as_str().into()),
+            source: wgpu::ShaderSource::Wgsl(text.into()),
         });
-    let workgroups = shaders::workgroup_sizes(&text);
     Ok(Module { module, workgroups })
 }
 

@@ -109,17 +109,14 @@ fn expanded(text: &str, modules: &[(String, &str)]) -> String {
     lines.join("\n")
 }
 
-/// Threads of a workgroup of each compute entry point, as the linked text says; none if the text is
-/// not valid.
-pub(crate) fn workgroup_sizes(text: &str) -> BTreeMap<String, [u32; 3]> {
-    let Ok(module) = naga::front::wgsl::parse_str(text) else {
-        return BTreeMap::new();
-    };
+/// Threads of a workgroup of each compute entry point, as the linked text says; else where it is not valid.
+pub(crate) fn workgroup_sizes(text: &str) -> Result<BTreeMap<String, [u32; 3]>, String> {
+    let module = naga::front::wgsl::parse_str(text).map_err(|error| error.emit_to_string(text))?;
     let entries = module.entry_points.into_iter();
     let compute = entries.filter(|point| point.stage == naga::ShaderStage::Compute);
-    compute
+    Ok(compute
         .map(|point| (point.name, point.workgroup_size))
-        .collect()
+        .collect())
 }
 
 #[cfg(test)]
@@ -242,8 +239,11 @@ pub(crate) mod tests {
     fn workgroups_have_the_size_that_the_shader_states() {
         let text = "const SIDE: u32 = 4u; @compute @workgroup_size(2 * SIDE, SIDE) fn idle() {}";
         let stated = BTreeMap::from([("idle".to_owned(), [8, 4, 1])]);
-        assert_eq!(workgroup_sizes(text), stated);
-        assert!(workgroup_sizes("@fragment fn idle() {}").is_empty());
+        assert_eq!(workgroup_sizes(text), Ok(stated));
+        let none = workgroup_sizes("@fragment fn idle() {}").unwrap();
+        assert!(none.is_empty());
+        let error = workgroup_sizes("fn f() { absent(); }").unwrap_err();
+        assert!(error.contains("absent"), "{error}");
     }
 
     #[test]

@@ -13,6 +13,7 @@ use super::data::{ADAPTIVE, EXACT, FULL, PIXEL, pixel};
 /// Largest deviations, pixels.
 const ERRORS: [&str; 5] = ["4", "2", "1", "0.5", "0.25"];
 const THRESHOLDS: [&str; 5] = ["0.1", "0.01", "0.001", "0.0001", "0.00001"];
+/// Of full and adaptive: at one more, adaptive searches half a million points before the ellipsoid.
 const LEVELS: u32 = 3;
 
 /// The size of what is measured.
@@ -30,7 +31,8 @@ pub fn curve(anchor: &'static str, scene: &str, claims: &'static [Claim]) -> Fig
     };
     let newton = |refinement: String| format!("newton(hidden=extend)+{refinement}");
     let full = (0..=LEVELS).map(|level| newton(format!("full(level={level})")));
-    let adaptive = THRESHOLDS.map(|threshold| newton(format!("adaptive(threshold={threshold})")));
+    let adaptive = THRESHOLDS
+        .map(|threshold| newton(format!("adaptive(level={LEVELS},threshold={threshold})")));
     let exact = ERRORS.map(|error| pixel(error).replace("extend", "extend,fragments=exact"));
     Figure {
         anchor,

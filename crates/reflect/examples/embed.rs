@@ -2,7 +2,8 @@
 //! floor with two coloured pyramids, drawn into a texture without a window.
 //!
 //! `cargo run --release --workspace --example embed -- ball.ppm` writes the picture. What an application does already
-//! is in [`Renderer`]; what beams add is marked with "beams:".
+//! is in [`Renderer`]; what beams add is marked with "beams:". Copied into a project of its own, this file needs
+//! `catoptric-reflect`, which hands on its `wgpu`, `bytemuck` and `pollster`.
 
 use catoptric_reflect::{embed, wgpu};
 use wgpu::util::DeviceExt;

@@ -366,7 +366,7 @@ pub const STEADINESS: &[Claim] = &[
             of: Measure::Own(left, &[JITTER_P99]),
             is: Limit::Below(0.1),
             noise: Noise::Share(0.05),
-            shown: Shown::Percent,
+            shown: Shown::Times,
         },
         "what one change in a hundred exceeds, with the grid over without: what is removed leaves less than \
          a tenth, not only less.",

@@ -320,7 +320,7 @@ mod tests {
             cells[..4],
             ["Szabo 2013", "1", "The one is better.", "s: a"]
         );
-        assert_eq!(cells[4..], ["10.0 %", "holds"]);
+        assert_eq!(cells[4..], ["10.0 % (9.8 to 10.2)", "holds"]);
         let json = value(&entries);
         assert_eq!(json[0]["verdict"], "holds");
         assert_eq!(json[0]["limit"]["above"], 0.01);

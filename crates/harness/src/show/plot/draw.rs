@@ -7,8 +7,9 @@ use crate::show::html::escape;
 
 /// Around every plot.
 const MARGIN: u32 = 12;
-/// Room for the numbers at the y axis, and for its label.
-const LEFT: u32 = 78;
+/// Room for the label of the y axis, and at least for the numbers at it.
+const TITLE: u32 = 26;
+const NUMBERS: u32 = 52;
 /// The same at an axis without numbers.
 const BARE: u32 = 12;
 /// Room for the numbers at the x axis, and for its label.
@@ -16,8 +17,13 @@ const BELOW: u32 = 52;
 /// Size of the labels at the axes, and the width of a character as a share of it, about.
 const LABEL: f64 = 17.0;
 const CHARACTER: f64 = 0.52;
-/// Length of the marks at labelled places of an axis.
+/// Width of a digit as a share of its size, about.
+const DIGIT: f64 = 0.6;
+/// Size of the numbers at the axes.
+const NUMBER: f64 = 16.0;
+/// Length of the marks at labelled places of an axis, and from there to the end of a number at the y axis.
 const TICK: f64 = 5.0;
+const ASIDE: f64 = 4.0;
 
 /// A point that can be shown: its series, its place on the axes, and itself.
 struct Shown<'p> {
@@ -94,14 +100,14 @@ impl Plot {
         let shown = self.shown();
         let x = self.x.extent(shown.iter().map(|point| point.place.0))?;
         let y = self.y.extent(shown.iter().map(|point| point.place.1))?;
+        let left = self.room_left(&y);
         let names = match &self.x.scale {
-            Scale::Names(names) => Some(names::Layout::of(names, WIDTH - 2 * MARGIN - LEFT)),
+            Scale::Names(names) => Some(names::Layout::of(names, WIDTH - 2 * MARGIN - left)),
             Scale::Linear | Scale::Close | Scale::Log => None,
         };
         // Names along the x axis take what room they need.
         let room = names.as_ref().map_or(0, |names| names.room);
         let height = self.height + room;
-        let left = if self.y.is_labelled() { LEFT } else { BARE };
         let area = Area {
             x,
             y,
@@ -134,6 +140,16 @@ impl Plot {
         })
     }
 
+    /// Room at the left of the y axis: for its longest number and its label.
+    fn room_left(&self, y: &Extent) -> u32 {
+        if !self.y.is_labelled() {
+            return BARE;
+        }
+        let widths = y.bold.iter().map(|place| width(&self.y.tick(*place)));
+        let longest = widths.fold(0.0, f64::max) + TICK + ASIDE;
+        TITLE + NUMBERS.max(longest.ceil() as u32)
+    }
+
     /// The axes with their numbers and labels.
     fn axes(&self, area: &Area, height: u32, body: &mut String) {
         let Area {
@@ -151,6 +167,8 @@ impl Plot {
                 path += &format!("M{x:.1} {bottom}v{TICK}");
             }
             for (x, tick) in self.x.apart(&area.x.bold, |place| area.at_x(place)) {
+                // A number at the end of the axis stays in the drawing.
+                let x = x.min(f64::from(WIDTH) - 0.5 * width(&tick));
                 let tick = escape(&tick);
                 text += &format!(
                     "<text x=\"{x:.1}\" y=\"{}\" text-anchor=\"middle\">{tick}</text>\n",
@@ -165,14 +183,14 @@ impl Plot {
                 path += &format!("M{left} {y:.1}h-{TICK}");
                 text += &format!(
                     "<text x=\"{}\" y=\"{:.1}\" text-anchor=\"end\">{tick}</text>\n",
-                    left - 9.0,
+                    left - TICK - ASIDE,
                     y + 5.5
                 );
             }
         }
         *body += &format!(
             "<path d=\"{path}\" fill=\"none\" stroke=\"currentColor\" opacity=\"0.5\"/>\n\
-             <g font-size=\"16\" fill=\"currentColor\">\n{text}</g>\n"
+             <g font-size=\"{NUMBER}\" fill=\"currentColor\">\n{text}</g>\n"
         );
         let [middle_x, middle_y] = [0.5 * (left + right), 0.5 * (top + bottom)];
         let turned_x = f64::from(MARGIN) + 8.0;
@@ -221,6 +239,11 @@ impl Plot {
             }
         }
     }
+}
+
+/// Width of a number at an axis, about.
+fn width(number: &str) -> f64 {
+    NUMBER * DIGIT * number.chars().count() as f64
 }
 
 /// The lines behind a drawing: stronger ones at labelled places.
@@ -276,6 +299,39 @@ mod tests {
         assert!(svg.starts_with("<svg role=\"img\""), "{svg}");
         assert!(!svg.contains("http"), "{svg}");
         assert!(svg.contains(">linear</text>"), "the legend");
+    }
+
+    /// Of the texts of a kind, where they begin, or end.
+    fn places(svg: &str, anchor: &str) -> Vec<(f64, usize)> {
+        let texts = svg.split("<text ").skip(1);
+        let texts = texts.filter(|text| text.contains(anchor));
+        let texts = texts.map(|text| {
+            let x = text.split('"').nth(1).unwrap().parse().unwrap();
+            let said = text.split(['>', '<']).nth(1).unwrap();
+            (x, said.chars().count())
+        });
+        texts.collect()
+    }
+
+    #[test]
+    fn long_numbers_have_room_at_both_axes() {
+        let svg = plot(&[(2e3, 1e5), (1e6, 9e6)]).inline().unwrap();
+        let numbers = places(&svg, "text-anchor=\"end\"");
+        assert!(
+            numbers.iter().any(|(_, characters)| *characters == 9),
+            "{numbers:?}"
+        );
+        for (end, characters) in numbers {
+            let begin = end - NUMBER * DIGIT * characters as f64;
+            // The label's size, from the middle of which it reaches to both sides.
+            assert!(begin > f64::from(MARGIN) + 8.0 + 0.5 * LABEL, "{begin}");
+        }
+        let numbers = places(&svg, "text-anchor=\"middle\"");
+        assert!(!numbers.is_empty());
+        for (middle, characters) in numbers {
+            let end = middle + 0.5 * NUMBER * DIGIT * characters as f64;
+            assert!(end <= f64::from(WIDTH), "{end}");
+        }
     }
 
     #[test]

@@ -93,7 +93,8 @@ pub struct Finding {
     pub verdict: Verdict,
     /// What it rests on.
     pub cases: Vec<Case>,
-    /// The number in words: from the least to the greatest where there are several cases.
+    /// The number in words: from the least to the greatest where there are several cases, with its interval
+    /// where there is one.
     pub number: String,
 }
 
@@ -160,13 +161,27 @@ impl Shown {
         }
     }
 
-    fn range(self, cases: &[Case]) -> String {
+    /// From the least to the greatest number; a single one with its interval.
+    pub(super) fn range(self, cases: &[Case]) -> String {
         let values = || cases.iter().map(|case| case.number.value);
         let least = values().fold(f64::INFINITY, f64::min);
         let most = values().fold(f64::NEG_INFINITY, f64::max);
-        match self.bare(least) == self.bare(most) {
-            true => self.write(most),
-            false => format!("{} to {}", self.bare(least), self.write(most)),
+        match cases {
+            [only] => self.write(most) + &self.interval(only.number),
+            _ if self.bare(least) == self.bare(most) => self.write(most),
+            _ => format!("{} to {}", self.bare(least), self.write(most)),
+        }
+    }
+
+    /// The interval in which a number may lie, in brackets; empty where rounding leaves nothing of it.
+    fn interval(self, number: Interval) -> String {
+        let [value, low, high] = [number.value, number.low, number.high].map(|end| self.bare(end));
+        if low == value && high == value {
+            String::new()
+        } else if number.high.is_finite() {
+            format!(" ({low} to {high})")
+        } else {
+            format!(" (at least {low})")
         }
     }
 }

@@ -7,8 +7,8 @@ use crate::suites::series::Series;
 use crate::suites::suite::Asked;
 use crate::suites::{SUITES, results};
 
-use super::rule::{Limit, Measure, Rule, Shown, Verdict};
-use super::{Claim, EVERY, Noise, Numbers, Place, Term, Which, at, each, of};
+use super::rule::{Case, Limit, Measure, Rule, Shown, Verdict};
+use super::{Claim, EVERY, Interval, Noise, Numbers, Place, Term, Which, at, each, of};
 
 /// Made-up numbers: of a series at a place, what a path's number is.
 struct Made<'f> {
@@ -317,7 +317,7 @@ fn steps_are_from_place_to_place() {
 
 #[test]
 fn limits_admit_what_lies_in_them() {
-    let span = |low: f64, high: f64| super::Interval {
+    let span = |low: f64, high: f64| Interval {
         value: 0.5 * (low + high),
         low,
         high,
@@ -378,4 +378,16 @@ fn series_belong_together_by_their_beginnings() {
     let finding = rule.judge(&made).unwrap();
     assert_eq!(finding.verdict, Verdict::OnlyIf(vec!["a".to_owned()]));
     assert_eq!(finding.number, "0.5 to 2 times");
+}
+
+#[test]
+fn a_single_number_has_its_interval() {
+    let written = |value: f64, low: f64, high: f64| {
+        let number = Interval { value, low, high };
+        let label = String::new();
+        Shown::Times.range(&[Case { label, number }])
+    };
+    assert_eq!(written(2.0, 2.0, 2.0), "2 times");
+    assert_eq!(written(2.0, 1.5, 3.0), "2 times (1.5 to 3)");
+    assert_eq!(written(2.0, 1.5, f64::INFINITY), "2 times (at least 1.5)");
 }

@@ -21,13 +21,13 @@ pub fn write_whole(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), FrameErro
     write_together(&[(path.as_ref(), bytes)], &mut [])
 }
 
-/// Replaces several files that belong together, as [`write_whole`] does each of them, in this order, and
-/// keeps what they show: all files are on the disk before the first one takes its place, and a signal
-/// that ends the program finds all of it done or nothing.
+/// Replaces several files that belong together, in this order, each as [`write_whole`] does, and keeps
+/// what is in `shown`. All files are on the disk before the first one takes its place, and a signal that
+/// ends the program finds either all of it done or none of it.
 ///
 /// # Errors
-/// As of [`write_whole`]. Where one of the last steps fails, files before it are replaced; if none is,
-/// nothing is kept.
+/// As of [`write_whole`]. If one of the last steps fails, the files before it are already replaced; if
+/// none is, nothing in `shown` is kept.
 pub fn write_together(
     files: &[(&Path, &[u8])],
     shown: &mut [&mut Provisional],
@@ -75,7 +75,7 @@ struct Replacement {
     /// `None` once it has taken its place.
     temporary: Option<NamedTempFile>,
     target: PathBuf,
-    /// Of the file that is there.
+    /// Metadata of the file that is replaced; `None` if there is none.
     existing: Option<Metadata>,
 }
 

@@ -1,6 +1,7 @@
 //! The channels of an OpenEXR file by name, each of them there or not.
 //!
-//! [`Frame::read_exr`](crate::Frame::read_exr) wants whole layers; this serves whoever can use less.
+//! [`Frame::read_exr`](crate::Frame::read_exr) wants whole layers; this is for callers that can use
+//! less.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -33,8 +34,8 @@ pub const MOST_PIXELS: u64 = 1 << 25;
 /// The most channels of a picture that is read.
 pub const MOST_CHANNELS: usize = 64;
 
-/// No compression makes more than this of a byte, not even of a picture in one colour: a header that
-/// promises more lies, or the file was cut.
+/// One byte of a file never holds more bytes of pixels than this, not even in a picture of one
+/// colour: a header that promises more is wrong, or the file was cut off.
 const MOST_EXPANSION: u64 = 1 << 17;
 
 /// What a file holds.
@@ -110,8 +111,8 @@ impl Channels {
         &self.names
     }
 
-    /// How it is known which pixels are mirrors, in a sentence, where the file itself does not say:
-    /// see [`Frame::from_channels`](crate::Frame::from_channels).
+    /// Where the file itself does not say which pixels are mirrors, a sentence about how that was
+    /// found out: see [`Frame::from_channels`](crate::Frame::from_channels).
     pub fn status_note(&self) -> Option<String> {
         if !self.any("reflected.") || self.any("reflected.status") {
             return None;
@@ -133,12 +134,12 @@ impl Channels {
         self.channels.keys().map(String::as_str)
     }
 
-    /// True where a channel's name begins so.
+    /// True if the name of some channel begins with `prefix`.
     pub fn any(&self, prefix: &str) -> bool {
         self.channels.keys().any(|name| name.starts_with(prefix))
     }
 
-    /// True where a channel whose name begins so has 16-bit samples.
+    /// True if some channel whose name begins with `prefix` has 16-bit samples.
     pub fn half(&self, prefix: &str) -> bool {
         let mut channels = self.channels.iter();
         channels.any(|(name, channel)| name.starts_with(prefix) && channel.half)

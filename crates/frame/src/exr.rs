@@ -1,13 +1,13 @@
 //! Frames as OpenEXR files.
 //!
-//! Written: one part, scanlines, ZIP, every channel 32-bit float (ids and status codes included),
-//! data window = display window. Channel names: `R G B`, `primary.id`, `primary.position.{X,Y,Z}`,
+//! Written: one part, scanlines, ZIP, every channel 32-bit float (ids and status codes included), data
+//! window = display window. Channel names: `R G B`, `primary.id`, `primary.position.{X,Y,Z}`,
 //! `primary.normal.{X,Y,Z}`, `reflected.id`, `reflected.position.{X,Y,Z}`, `reflected.distance`,
-//! `reflected.status` (the code of [`crate::Status`]) and, under truth `full`, `bounces`; where the
-//! motion of the reflections is known, `motion.{X,Y}` and `motion.valid` (1, or 0 where the vector means
-//! nothing), from the reference `motion.disoccluded` (1 where the point was hidden), and where another
-//! program's convention was asked for `mv.{X,Y}` and `mv.distance`. The header text
-//! `catoptric.ids` lists the ids, one a line: `1 object floor`.
+//! `reflected.status` (the code of [`crate::Status`]) and, under truth `full`, `bounces`. Where the
+//! motion of the reflections is known, also `motion.{X,Y}` and `motion.valid` (1, or 0 where the vector
+//! means nothing); from the reference also `motion.disoccluded` (1 where the point was hidden in the
+//! frame before); if another program's convention was asked for, also `mv.{X,Y}` and `mv.distance`. The
+//! header text `catoptric.ids` lists the ids, one a line: `1 object floor`.
 //!
 //! Read: the same, and what other renderers write: channels in any order, half or unsigned samples,
 //! any lossless or lossy compression the `exr` crate knows, only colour, no status, no names.
@@ -98,11 +98,12 @@ impl Frame {
 
     /// The layers of a file.
     ///
-    /// `R G B` must be there. The `primary` channels are there all or none, likewise the
-    /// `reflected` ones; then the layer is `None`. Without `reflected.status`, the pixels of
-    /// mirrors are taken as resolved: of those that the name list calls mirrors, else of all whose
-    /// `primary.id` shows a `reflected.id` at some pixel. Without `motion.valid`, a vector is known
-    /// where it is finite. Without a name list, `names` is empty: see [`Frame::assign_names`].
+    /// `R G B` must be there. Either all `primary` channels are there or none, and likewise the
+    /// `reflected` ones; without its channels a layer is `None`. Without `reflected.status`, the pixels
+    /// of mirrors count as resolved: those whose ids the name list calls mirrors, or, without a name
+    /// list, those of every `primary.id` that has a `reflected.id` at some pixel. Without
+    /// `motion.valid`, a vector is known where it is finite. Without a name list, `names` is empty: see
+    /// [`Frame::assign_names`].
     pub fn from_channels(channels: &Channels) -> Result<Self, FrameError> {
         let primary = if channels.any("primary.") {
             Some(Primary {
@@ -277,8 +278,7 @@ impl Frame {
     }
 }
 
-/// The motion of reflections. Vectors that are not known are 0, so that no number that is none is
-/// taken for one.
+/// The motion of reflections. Unknown vectors are 0, so that NaN is never taken for a vector.
 fn motion(channels: &Channels, x: &Image<f32>, y: &Image<f32>) -> Result<Motion, FrameError> {
     let size = channels.size();
     let vectors = x.pixels().iter().zip(y.pixels());

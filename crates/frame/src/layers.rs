@@ -1,10 +1,10 @@
 //! The layers that a renderer hands over: what `catoptric diff` and `check` read of anybody's OpenEXR
 //! file.
 //!
-//! One part, scanlines or tiles, any compression that the `exr` crate reads, channels in any order, 16- or
-//! 32-bit samples; [`Frame::read_exr`](crate::Frame::read_exr) reads it. Of 16-bit samples positions are
-//! too coarse to be judged: write 32 bits. Row 0 is on top, x to the right, y down; a sample belongs to the
-//! centre of its pixel, and one ray through that centre is what it should come from.
+//! One part, scanlines or tiles, any compression that the `exr` crate reads, channels in any order, 16- or 32-bit
+//! samples; [`Frame::read_exr`](crate::Frame::read_exr) reads it. Positions in 16-bit samples are too coarse to be
+//! judged: write 32 bits. Row 0 is on top, x to the right, y down. A sample belongs to the centre of its pixel, and
+//! should come from one ray through that centre.
 //!
 //! | channels | what | unit and space | where there is nothing |
 //! |---|---|---|---|
@@ -12,15 +12,15 @@
 //! | `primary.id` | what the eye ray meets first | whole number: objects from 1 in the scene file's order, then mirrors | 0 |
 //! | `primary.position.X` `.Y` `.Z` | where | world | 0 0 0 |
 //! | `primary.normal.X` `.Y` `.Z` | unit normal: a mirror's on its reflecting side (of a mesh the shading normal), an object's towards the eye | world | 0 0 0 |
-//! | `reflected.id` | what the ray that a mirror pixel reflects meets | as `primary.id` | 0: the background, or no mirror |
+//! | `reflected.id` | what the reflected ray of a mirror pixel meets | as `primary.id` | 0: the background, or no mirror |
 //! | `reflected.position.X` `.Y` `.Z` | where | world | 0 0 0 |
-//! | `reflected.distance` | from the mirror's point to there | world | 0 |
+//! | `reflected.distance` | from the mirror's point to there | world units | 0 |
 //! | `reflected.status` | what is known of the pixel, below | whole number | 0 |
-//! | `bounces` | mirrors until there, in a picture with mirrors in mirrors | whole number | 0 |
+//! | `bounces` | reflections on the path to there, in a picture with mirrors in mirrors | whole number | 0 |
 //!
-//! `reflected.status` is 0 where the first surface is no mirror, 1 where the reflection is known, 2 where
-//! it is a mirror's and the technique found no answer, 3 where a mesh's shading normal sends the ray
-//! below its surface, 4 on a mirror's black back ([`Status`](crate::Status)).
+//! `reflected.status` is 0 where the first surface is no mirror, 1 where the reflection is known, 2 on a mirror where
+//! the technique found no answer, 3 where a mesh's shading normal sends the ray below its surface, 4 on a mirror's
+//! black back ([`Status`](crate::Status)).
 //!
 //! The header text `catoptric.ids` names the ids, one a line: id, `object` or `mirror`, name, such as
 //! `1 object floor`.
@@ -28,14 +28,13 @@
 //! # What may be missing
 //!
 //! - `R G B` must be there.
-//! - The seven `primary` channels are there all or none, so are the five `reflected` ones without their
-//!   status. Without them colour alone is compared, over the whole picture, and that is said.
+//! - Either all seven `primary` channels are there or none, and likewise the five `reflected` ones besides the status.
+//!   Without them only the colour is compared, over the whole picture, and a message says so.
 //! - Without `reflected.status` the pixels of mirrors count as known: those of the ids that `catoptric.ids`
 //!   calls mirrors, or, without that list, of each id that has a `reflected.id` at some pixel. Holes of a
 //!   technique cannot be told from background then.
-//! - Without `catoptric.ids`, as programs leave it out that rewrite a file, ids get the names of the
-//!   other picture.
-//! - `bounces` is looked at by `check` alone.
+//! - Without `catoptric.ids`, which programs that rewrite a file may drop, ids get the names of the other picture.
+//! - Only `check` reads `bounces`.
 //!
 //! # What a metric needs
 //!

@@ -68,7 +68,7 @@ pub struct Reflected {
     pub bounces: Option<Image<u32>>,
 }
 
-/// Where, a frame before, was what each mirror pixel shows now.
+/// For each mirror pixel, where the point that it reflects now was seen in the frame before.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motion {
     /// From the pixel's centre to where the reflection of the same point was, in pixels, +x right, +y
@@ -76,10 +76,10 @@ pub struct Motion {
     pub vector: Image<Vec2>,
     /// Whether the vector is known.
     pub valid: Image<bool>,
-    /// Whether something else hid the point from the mirror by then, so that its colour was not there. `None`
-    /// where that is not known.
+    /// Whether something else hid the point from the mirror in the frame before, so that its colour was not
+    /// there. `None` where that is not known.
     pub disoccluded: Option<Image<bool>>,
-    /// The same for programs that read it otherwise; written, never read.
+    /// The same in another program's convention; written to files, never read from them.
     pub converted: Option<Converted>,
 }
 
@@ -88,8 +88,8 @@ pub struct Motion {
 pub struct Converted {
     /// The vectors in that program's unit and signs.
     pub vector: Image<Vec2>,
-    /// Distance of the virtual image behind the mirror's point along the eye ray, world units; negative
-    /// before it, 0 where there is none.
+    /// Distance of the virtual image behind the mirror's point along the eye ray, world units; negative in
+    /// front of it, 0 where there is none.
     pub virtual_distance: Image<f32>,
 }
 

@@ -47,10 +47,10 @@ fn parse_line(line: &str) -> Option<Name> {
     })
 }
 
-/// The status of a picture that does not bring one: a mirror's pixel is resolved, everything else
-/// is no mirror. Which ids are mirrors the names say; without names, those are that somewhere show
-/// something reflected. Without the ids of the first surfaces, a pixel with a reflected id is
-/// resolved.
+/// The status of a picture without a status layer: a mirror's pixel is resolved, everything else is
+/// no mirror. The names say which ids are mirrors; without names, the mirrors are the ids that have
+/// a reflected id at some pixel. Without the ids of the first surfaces, a pixel with a reflected id
+/// is resolved.
 pub(crate) fn derived_status(
     names: &[Name],
     primary: Option<&Primary>,

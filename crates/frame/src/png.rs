@@ -82,7 +82,7 @@ pub fn png16(image: &Image<Vec3>, path: &Path) -> Result<Vec<u8>, FrameError> {
     })
 }
 
-/// Pixels as a PNG, as `kind` says that they are; of 8 bits unless it says so.
+/// Encodes pixels as a PNG of the given `kind`, with 8 bits a channel unless it says otherwise.
 fn encoded(
     bytes: &[u8],
     [width, height]: [u32; 2],

@@ -30,7 +30,7 @@ pub struct VertexResult {
     pub hole: Option<bool>,
     /// The enlargement repair was used; `None` for searches that have none.
     pub enlarged: Option<bool>,
-    /// The search failed and says so, and hands over this point all the same, which is drawn.
+    /// The search reports that it failed, but returns this point all the same, and the point is drawn.
     pub stand_in: bool,
 }
 
@@ -55,8 +55,8 @@ pub struct TrueVertex {
     /// All reflection points: world position and image coordinates (`None` behind the eye's
     /// plane). Empty unless `class` is `Reflected`.
     pub points: Vec<(DVec3, Option<DVec2>)>,
-    /// By point, how many focal points of its reflected beam lie before the vertex; `None` where that is not
-    /// known.
+    /// For each point, how many focal points of its reflected beam lie before the vertex; `None` where that
+    /// is not known.
     pub focal: Vec<Option<u8>>,
     /// Parts of the mirror of which it could not be decided whether they hold a point.
     pub undecided: u64,
@@ -90,8 +90,8 @@ pub struct Triangles {
     pub unfinished: u64,
 }
 
-/// What following the reflected rays of one frame took, pixel by pixel; all 0 where no mirror's
-/// front is seen.
+/// Work done to follow the reflected rays of one frame, pixel by pixel; all 0 where no mirror's front is
+/// seen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Traced {
     /// As [`Work::samples`].

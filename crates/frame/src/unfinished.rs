@@ -199,8 +199,9 @@ pub fn sweep(folder: &Path) {
     }
 }
 
-/// Whether no running program holds a file that programs lock as long as they write. If so, it is
-/// locked from now on, as long as it is open. Where files cannot be locked, none is abandoned.
+/// Whether the program that wrote `file` has ended without finishing it: programs lock such a file
+/// while they write. If so, the file is locked from now on, until it is closed. Where files cannot
+/// be locked, none counts as abandoned.
 pub fn is_abandoned(file: &File) -> bool {
     match file.try_lock() {
         Ok(()) => true,

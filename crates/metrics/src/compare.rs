@@ -15,8 +15,8 @@ use crate::stats::Summary;
 /// What a comparison cannot see in the pictures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CompareOptions {
-    /// The technique can leave pixels unresolved, so that none is a result; otherwise the record
-    /// has `null` unless some pixel is.
+    /// The technique can leave pixels unresolved, so that a count of 0 means something; for other
+    /// techniques the record has `null` unless some pixel is unresolved.
     pub may_be_unresolved: bool,
     /// T-junctions that the technique counted.
     pub t_junctions: Option<u64>,

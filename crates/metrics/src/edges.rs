@@ -10,8 +10,8 @@ use crate::coverage::Layers;
 use crate::stats::Summary;
 
 /// Distances in pixels from every edge point of the one picture to the nearest of the other, both
-/// ways; `None` unless both have edges. Where an object reaches the mirror's outline there is an
-/// edge to be near to, but none to ask for: the outline is the same in both.
+/// ways; `None` unless both have edges. Points where an object reaches the mirror's outline are only
+/// measured to, not from: the outline is the same in both pictures.
 pub(crate) fn edge_offset(layers: &Layers) -> Option<Summary> {
     let pictures = [layers.reference, layers.test];
     let edges = pictures.map(|layer| edge_points(layers, layer, false));
@@ -29,8 +29,8 @@ pub(crate) fn edge_offset(layers: &Layers) -> Option<Summary> {
     Summary::of([from(&edges[0], &in_test), from(&edges[1], &in_reference)].concat())
 }
 
-/// Indices of a layer's edge points in a grid of half pixels, which has a point more each way;
-/// `outline`: those where an object reaches the mirror's outline too.
+/// Indices of a layer's edge points in a grid of half pixels, `2 · width + 1` by `2 · height + 1`;
+/// `outline` adds the points where an object reaches the mirror's outline.
 fn edge_points(layers: &Layers, layer: &Reflected, outline: bool) -> Vec<usize> {
     let [width, height] = layers.size.map(|side| side as usize);
     let id = |x: usize, y: usize| {

@@ -5,8 +5,8 @@
 //! Input is linear RGB, clamped to 0…1 as a display would; NaN counts as 0.
 //!
 //! Own code, since the authors' library takes 8-bit pictures, works in f32 and needs a C++ compiler;
-//! the tests compare with it. In f64, since the powers of 0.7 and ½ raise what rounding leaves of a
-//! small difference.
+//! the tests compare with it. It computes in f64, because the powers of 0.7 and ½ amplify the
+//! rounding error of a small difference.
 
 use catoptric_frame::Image;
 use glam::{DMat3, DVec3, DVec4, Vec3};
@@ -214,9 +214,9 @@ fn white() -> DVec3 {
     XYZ_FROM_LINEAR * DVec3::ONE
 }
 
-/// Opponent space: achromatic, red–green, blue–yellow. These are the paper's 116 Y − 16,
-/// 500 (X − Y) and 200 (Y − Z), with X, Y, Z relative to white, without the factors and the offset:
-/// the filters, whose weights sum to 1, leave those as they are, and −16 would swallow the dark.
+/// Opponent space: achromatic, red–green, blue–yellow. These are the paper's 116 Y − 16, 500 (X − Y)
+/// and 200 (Y − Z), with X, Y, Z relative to white, without the factors and the offset. The filters'
+/// weights sum to 1, so they do not change either, and −16 would drown dark values in rounding.
 fn opponent_from_linear(linear: DVec3) -> DVec3 {
     // `max` before `min`: NaN becomes 0.
     let displayed = linear.max(DVec3::ZERO).min(DVec3::ONE);

@@ -198,8 +198,8 @@ pub fn color_bar(colormap: Colormap, size: [u32; 2], ticks: u32) -> Image<[u8; 3
 }
 
 impl Colormap {
-    /// Of all colours of a map, one more than these. A picture with them and the greys of another still fits
-    /// a palette of 256, which makes its file half as large.
+    /// Steps of a colour map, which has one colour more than this. A picture with these colours and the
+    /// greys of another picture still fits a palette of 256, which halves the size of its file.
     const STEPS: f32 = 128.0;
 
     /// sRGB colour at `t` from 0 to 1, in steps of 1/128, interpolated between evenly spaced stops.

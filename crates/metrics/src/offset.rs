@@ -7,8 +7,8 @@ use rayon::prelude::*;
 use crate::MetricsError;
 use crate::coverage::Layers;
 
-/// A point that lies farther from the nearest one that the reference shows, in steps between
-/// neighbouring pixels, is not in the reference's picture.
+/// A point is not in the reference's picture if it lies farther than this from the nearest point
+/// that the reference shows, in steps between neighbouring pixels.
 const REACH: f64 = 1.5;
 
 /// For each mirror pixel: how many pixels away the reference shows the point of the scene that the

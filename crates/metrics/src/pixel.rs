@@ -1,7 +1,8 @@
-//! What an answer in whole pixels is off by.
+//! The error that is left where answers are whole pixels.
 //!
-//! A search over a picture of the mirror answers with a pixel, not with the place in it. What such
-//! an answer shows at the pixel's centre is then any of what the mirror shows across that pixel.
+//! A search in an image of the mirror answers with a pixel, not with a place inside it. What such
+//! an answer shows at the pixel's centre may then be anything that the mirror shows within that
+//! pixel.
 
 use catoptric_frame::Frame;
 
@@ -9,8 +10,8 @@ use crate::MetricsError;
 use crate::coverage::{Layers, angle_deg};
 use crate::stats::Summary;
 
-/// Places in a pixel, as offsets from its centre in pixels, to one side of it: a grid of 4 × 4 of
-/// which the other half, being opposite, makes the same angles.
+/// Places in a pixel, as offsets from its centre in pixels: one half of a grid of 4 × 4. The other
+/// half lies opposite and makes the same angles.
 const PLACES: [(f64, f64); 8] = [
     (0.125, 0.125),
     (0.375, 0.125),
@@ -22,11 +23,11 @@ const PLACES: [(f64, f64); 8] = [
     (-0.375, 0.375),
 ];
 
-/// Angles at the mirror point between what a mirror pixel's centre shows and what other places of
-/// the same pixel show, in degrees, over all pixels and places alike: the floor below which
-/// answers in whole pixels take no error of the angles, unless errors average out between vertices
-/// far apart. Hits between pixel centres are interpolated, so that only pixels count whose right
-/// and lower neighbours show the same object; `None` without any.
+/// Angles at the mirror point, in degrees, between what a mirror pixel's centre shows and what
+/// other places in the same pixel show, over all pixels and places alike. No search that answers in
+/// whole pixels has smaller angular errors, unless errors average out between vertices far apart.
+/// Hits between pixel centres are interpolated, so only pixels count whose right and lower
+/// neighbours show the same object; `None` without any.
 ///
 /// # Errors
 /// The frame lacks a layer.

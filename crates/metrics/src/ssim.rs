@@ -1,10 +1,11 @@
 //! Structural similarity (Wang et al. 2004) of the luma: 11 × 11 Gaussian window with σ 1.5,
 //! K1 = 0.01, K2 = 0.03, L = 1.
 //!
-//! Own code, since kept crates compare 8-bit pictures, with windows that are not the published one;
-//! here the pictures are linear and have no upper end. So variances are sums of squares about the
-//! mean, never differences of large numbers: windows are merged row by row and then column by
-//! column, by the law of total variance, and every value is taken relative to a pixel of its window.
+//! Own code, since the maintained crates compare 8-bit pictures, with windows that are not the
+//! published one; here the pictures are linear and have no upper bound. So variances are sums of
+//! squares about the mean, never differences of large numbers: windows are merged row by row and
+//! then column by column, by the law of total variance, and every value is taken relative to a pixel
+//! of its window.
 
 use catoptric_frame::Image;
 use glam::{DVec2, DVec3, Vec3};
@@ -114,8 +115,9 @@ impl Window {
         merged
     }
 
-    /// `(2 µx µy + C1) / (µx² + µy² + C1)` times `(2 σxy + C2) / (σx² + σy² + C2)`, each written as
-    /// 1 less what differs, so that neither exceeds 1 and near 1 no digit is lost.
+    /// `(2 µx µy + C1) / (µx² + µy² + C1)` times `(2 σxy + C2) / (σx² + σy² + C2)`. Each factor is
+    /// computed as 1 minus its distance from 1, so that neither exceeds 1 and no digit is lost near
+    /// 1.
     fn similarity(&self) -> f64 {
         let mean = self.middle + self.mean;
         let apart = (self.middle.x - self.middle.y) + (self.mean.x - self.mean.y);

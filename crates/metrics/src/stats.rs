@@ -148,11 +148,11 @@ fn mean(samples: &[f64]) -> Option<f64> {
     (!samples.is_empty()).then(|| samples.iter().sum::<f64>() / samples.len() as f64)
 }
 
-/// With fewer samples, not even from the smallest to the largest is a 95 % interval of the median:
-/// all n lie on one side of it once in 2ⁿ⁻¹ times.
+/// With fewer samples not even the range from the smallest to the largest is a 95 % interval of the
+/// median: all n samples lie on one side of it with probability 1 / 2ⁿ⁻¹.
 pub const FEWEST_FOR_INTERVAL: usize = 6;
 
-/// Resamples per interval: the ends of a 95 % interval then rest on 50 resamples each.
+/// Resamples per interval: beyond each end of a 95 % interval lie 50 of them.
 const RESAMPLES: usize = 2000;
 const SEED: u64 = 0x6361_746f_7074_7269;
 

@@ -228,8 +228,8 @@ pub fn vertex_report(
 }
 
 /// Found − true in pixels for every (object vertex, mirror) pair, to be followed over frames by
-/// [`temporal`](crate::temporal()); `None` where no true point is in view or nothing was found. Where
-/// there are several solutions, the pair of found and true point that is nearest to each other.
+/// [`temporal`](crate::temporal()); `None` where no true point is in view or nothing was found. If there are
+/// several solutions, the found point and the true point that are nearest to each other count.
 ///
 /// Arguments as for [`vertex_report`].
 pub fn vertex_errors(
@@ -259,8 +259,8 @@ pub fn vertex_errors(
         .collect())
 }
 
-/// Where a search says that a vertex is reflected. Where it says so of none of its answers, those that it
-/// calls hidden or unreflected stand for it.
+/// The image points at which a search says that a vertex is reflected. If it says so of none of its answers,
+/// those that it calls hidden or unreflected are taken instead.
 fn found(group: &[VertexResult]) -> Vec<DVec2> {
     let is_found = |result: &VertexResult| result.state == VertexState::Found;
     let any_found = group.iter().any(is_found);

@@ -1,4 +1,5 @@
-//! Whether what is to be traced is whole: a scene that was loaded is, one built by hand may not be.
+//! Whether a scene is complete enough to be traced: a loaded scene always is, one built by hand may
+//! not be.
 
 use catoptric_scene::Mesh;
 

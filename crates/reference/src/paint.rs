@@ -31,7 +31,7 @@ pub(crate) fn surface(mesh: &Mesh, triangle: usize, barycentric: DVec3) -> Vec3 
     }
 }
 
-/// The four texels around `uv`, weighted; the picture repeats.
+/// The four texels around `uv`, blended by their bilinear weights; the picture repeats.
 fn bilinear(image: &Texture, uv: DVec2) -> Vec3 {
     // In texels from the top left, texel centres at whole numbers.
     let x = uv.x * f64::from(image.width()) - 0.5;

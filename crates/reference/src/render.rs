@@ -18,8 +18,7 @@ use crate::tracer::{Hit, Surface, Tracer};
 /// Which reflections a picture shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Truth {
-    /// Reflected rays see everything but mirrors, which none of them meets: what all four papers
-    /// assume.
+    /// Reflected rays meet everything except mirrors, as all four papers assume.
     FirstBounce,
     /// Mirrors in mirrors.
     Full {
@@ -44,7 +43,7 @@ pub struct RenderOptions<'a> {
 }
 
 impl RenderOptions<'_> {
-    /// Pixel centres, silently.
+    /// One ray through each pixel's centre, and no progress calls.
     pub fn new(size: [u32; 2], truth: Truth) -> Self {
         Self {
             size,

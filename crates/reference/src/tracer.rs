@@ -194,8 +194,7 @@ impl Tracer {
         )
     }
 
-    /// What a ray in direction `dir` meets that leaves a mirror at `from`: objects, and mirrors
-    /// if asked for.
+    /// What a ray that leaves a mirror at `from` in direction `dir` meets: objects, and mirrors if asked for.
     pub(crate) fn trace_reflected(&self, from: &Hit, dir: DVec3, mirrors: bool) -> Option<Hit> {
         if self.ray_start == RayStart::Mitsuba {
             return self.trace_from_mitsubas_start(from, dir, mirrors);
@@ -370,8 +369,8 @@ impl Hit {
     }
 }
 
-/// Whether of two mirrors' hits the first is met: the nearer, or where they are equally far away
-/// and one of them is a front, that one.
+/// Whether `hit` is met before `other`, both on mirrors: the nearer one is, and of two at the same distance the one on
+/// a front.
 fn is_met_before(hit: &Hit, other: &Hit) -> bool {
     let equal = (hit.t - other.t).abs() <= EQUAL * other.t;
     match (hit.is_front(), other.is_front()) {

@@ -5,8 +5,8 @@ use glam::{DVec3, Vec3};
 
 use crate::bvh::{TriangleBvh, TriangleHit};
 
-/// Triangles of several meshes in one hierarchy. Of those that coincide the first stays, of mirrors
-/// the first for each side.
+/// Triangles of several meshes in one hierarchy. Of coincident triangles of objects only the first
+/// is kept, of mirrors the first for each side.
 #[derive(Debug)]
 pub(crate) struct Triangles {
     pub(crate) bvh: TriangleBvh,

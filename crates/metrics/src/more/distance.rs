@@ -1,5 +1,6 @@
-//! How far off the length of the reflected ray is: a point on the right ray, but too near or too far,
-//! has no angular error, and yet is wrong for whoever filters or reprojects reflections by it.
+//! Error of the length of the reflected ray. A point on the right ray that is too near or too far has
+//! no angular error, and yet is wrong for anything that filters or reprojects reflections by its
+//! distance.
 
 use crate::coverage::Layers;
 use crate::stats::Summary;

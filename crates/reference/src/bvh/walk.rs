@@ -8,7 +8,7 @@ use glam::{DVec3, Vec3};
 use super::leaf::{Block, Sheared};
 use super::wide::{Child, Kind, LANES, Wide};
 
-/// So many may wait without a heap allocation; 66 444 triangles of architecture need 71.
+/// Entries that may wait without a heap allocation; 66 444 triangles of architecture need 71.
 const STACK: usize = 128;
 
 /// Distances are the same if they are apart by no more than this share of the triangles' extent, or
@@ -65,7 +65,7 @@ pub struct Work {
     pub met: u32,
 }
 
-/// Told of every test.
+/// Is told of every test of a node or block.
 pub(super) trait Observer {
     fn node(&mut self) {}
     fn block(&mut self) {}

@@ -58,7 +58,7 @@ pub(super) struct Node {
 pub(super) struct Wide {
     pub(super) nodes: Vec<Node>,
     pub(super) root: Child,
-    /// Most children that ever wait.
+    /// Most children that ever wait on the traversal stack.
     pub(super) stack: usize,
 }
 
@@ -88,16 +88,16 @@ enum Choice {
     Leaf,
     /// A node of its own.
     Node,
-    /// Its two children take its place, the first with so many of its places.
+    /// Its two children take its place; the first gets this many of its child slots.
     Open(u8),
 }
 
-/// Least cost of a subtree, and how: `[k]` if it may take the places of `k + 1` children.
+/// Least cost of a subtree, and the choice that gives it: `[k]` if it may take `k + 1` child slots.
 #[derive(Clone, Copy, Default)]
 struct Plan {
     cost: [f32; LANES],
     choice: [Choice; LANES],
-    /// How the places of a node of its own are shared out.
+    /// How the child slots are shared out if it becomes a node of its own.
     own: u8,
     triangles: u32,
 }

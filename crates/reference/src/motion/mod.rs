@@ -1,20 +1,21 @@
-//! Where, a frame before, was what a mirror pixel shows now: the true motion of reflections.
+//! The true motion of reflections: where the point that a mirror pixel shows now was seen in the frame
+//! before.
 //!
-//! Pixel `p` of frame `f` shows, at the mirror point `P`, the material point `X`: a place on a triangle
-//! of an object, or of the background a direction. A frame before, the object, the mirror and the eye
-//! stood elsewhere. Sought is the image, in the camera of then, of the point `R` at which the mirror of
-//! then reflects the `X` of then. Of several such points it is the one into which `P` has moved:
-//! [`Follow`] goes from frame to frame in steps of time so short that Newton's method converges at once
-//! and the image moves by less than 2 pixels, and keeps the orientation of the branch, which is the sign
-//! of the derivative's determinant.
+//! Pixel `p` of frame `f` shows, at the mirror point `P`, the material point `X`: a place on a triangle of
+//! an object, or a direction of the background. In the frame before, the object, the mirror and the eye
+//! were elsewhere. Let `R` be the point at which the mirror, as it was then, reflects `X`, as it was then;
+//! the result is the image of `R` in the camera of then. If there are several such points, `R` is the one
+//! into which `P` has moved: [`Follow`] goes from frame to frame in time steps so short that Newton's
+//! method converges at once and the image moves by less than 2 pixels. It keeps the orientation of the
+//! branch, which is the sign of the derivative's determinant.
 //!
-//! There is no answer where the branch ends, where `R` leaves the mirror, where the eye of then does
-//! not see it, and outside the image. Where something else hid `X` from `R`, the vector stands and the
-//! pixel is marked as disoccluded.
+//! There is no answer where the branch ends, where `R` leaves the mirror, where the eye of then does not
+//! see `R`, and outside the image. Where something else hid `X` from `R`, the vector is kept and the pixel
+//! is marked as disoccluded.
 //!
-//! All of it is done in the mirror's rest frame (`moment`), in which only the eye and `X` move: the
-//! surface (`surface`) is the one of the scene as written, but that the triangles of mesh mirrors are, at
-//! both ends, those of the frames, whose corners are rounded to f32.
+//! All computations are done in the mirror's rest frame (`moment`), in which only the eye and `X` move. The
+//! surface (`surface`) is that of the scene as written. Only the triangles of mesh mirrors are, at both
+//! ends, those of the frames, whose corners are rounded to f32.
 //!
 //! Image coordinates: x right, y down, pixel centres at +½.
 
@@ -39,26 +40,26 @@ use crate::tracer::{self, Tracer};
 /// The image moves by less than this in a step of time, in pixels.
 const LONGEST_MOVE: f64 = 2.0;
 
-/// Newton's steps in which the point of a smooth surface must be found; a mesh takes some more, since
-/// its derivatives change from triangle to triangle.
+/// Newton steps within which the point of a smooth surface must be found; a mesh takes some more, since its
+/// derivatives change from triangle to triangle.
 const STEPS: usize = 3;
 const STEPS_ON_MESH: usize = 8;
 
-/// A last step of Newton's method that is shorter, in pixels, has arrived: between the frames, where the
-/// next step of time starts from there, and at the end.
+/// Newton's method has converged where its last step is shorter than this, in pixels: between the frames,
+/// where the next time step starts from there, and at the end.
 const ARRIVED: f64 = 1e-5;
 const ARRIVED_AT_THE_END: f64 = 1e-11;
 
-/// Steps at the end, each of which squares what is left.
+/// Newton steps at the end, each of which squares the error that is left.
 const LAST_STEPS: usize = 12;
 
-/// What Newton's method could not improve to below this, in pixels, is no answer.
+/// An answer whose next Newton step would still be longer than this, in pixels, is rejected.
 const CONVERGED: f64 = 1e-8;
 
 /// Parts of the time between two frames: no step is shorter.
 const PARTS: u32 = 1 << 14;
 
-/// A share of lengths below which two surfaces are at one place.
+/// Two surfaces are at one place if they are apart by less than this share of the distance.
 const SAME: f64 = 1e-6;
 
 /// A reflection: a place on a mirror and what is seen there.
@@ -288,11 +289,12 @@ struct Newton {
 }
 
 impl Newton {
-    /// With the unit directions `o` to the eye, at distance `a`, and `v` to the point, at distance `b`, the
-    /// bisector `h = o + v` is normal at a reflection point: `g = (h·t₁, h·t₂)` is zero, `t` spanning the
-    /// plane across the normal `N`. Its derivative along a coordinate, along which the point moves by `P'`
-    /// and the normal by `N'`, is `−t·(M P') − (h·N)(t·N')`, `M = (1 − oo)/a + (1 − vv)/b`; of a direction,
-    /// `1/b` is 0.
+    /// Let `o` be the unit direction to the eye, at distance `a`, and `v` that to the point, at distance
+    /// `b`. At a reflection point the bisector `h = o + v` is normal to the surface: `g = (h·t₁, h·t₂)` is
+    /// zero, where `t₁` and `t₂` span the plane perpendicular to the normal `N`. Along a coordinate that
+    /// moves the point by `P'` and the normal by `N'`, the derivative of `g` is `−t·(M P') − (h·N)(t·N')`
+    /// with `M = (1 − oo)/a + (1 − vv)/b`, where `oo` and `vv` are outer products. For a direction in place
+    /// of a point, `1/b` is 0.
     fn at(here: &Local, situation: &Situation<'_>) -> Self {
         let to_eye = situation.eye - here.point;
         let (near, o) = (1.0 / to_eye.length(), to_eye.normalize());

@@ -1,7 +1,8 @@
 //! A mirror's surface at rest, with coordinates around every place of it.
 //!
-//! On a shape that is known exactly they are lengths along two tangents; on a mesh the weights of the
-//! second and third corner of a triangle, and whoever leaves a triangle goes on in its neighbour.
+//! On a shape that is known exactly the coordinates are lengths along two tangents. On a mesh they are
+//! the weights of the second and third corner of a triangle, and a step that leaves a triangle goes on
+//! in its neighbour.
 
 use std::collections::HashMap;
 
@@ -12,7 +13,8 @@ use glam::{DMat2, DVec2, DVec3, Vec3};
 /// derivative, large enough for f64.
 const DIFFERENCE: f64 = 1e-5;
 
-/// How far above a place, as a share of the extent, the ray starts that puts a point onto the surface.
+/// Height above the surface, as a share of the extent, at which the ray starts that puts a point onto
+/// it.
 const ABOVE: f64 = 1e-3;
 
 /// The longest step on a smooth surface, as a share of its extent.

@@ -1,12 +1,13 @@
 //! The point of an ellipsoid, seen from outside, that reflects a vertex to an eye.
 //!
-//! By Fermat's principle the way from eye to mirror to vertex is stationary. The length of the
-//! way over a point is a convex function of that point, and the ellipsoid is a convex body: if
-//! the straight way misses the body, the shortest way touches it in exactly one point, where the
-//! bisector of the directions to eye and vertex is the outward normal, so that both are in
-//! front. If the straight way meets the body, no point reflects. So the vertex is hidden exactly
-//! if the straight way is blocked, and else its only reflection point is a minimum, found by a
-//! safeguarded Newton iteration on the unit sphere that the body is an affine image of.
+//! By Fermat's principle the path from eye to mirror to vertex has stationary length. The length of
+//! the path over a point is a convex function of that point, and the ellipsoid is a convex body. So
+//! if the straight path from eye to vertex misses the body, the shortest path touches the body in
+//! exactly one point, where the bisector of the directions to eye and vertex is the outward normal,
+//! so that both are in front. If the straight path meets the body, no point reflects. Hence the
+//! vertex is hidden exactly if the straight path is blocked; otherwise its only reflection point is
+//! a minimum, found by a safeguarded Newton iteration on the unit sphere that the body is an affine
+//! image of.
 
 use catoptric_frame::VertexClass;
 use catoptric_scene::shape::Ellipsoid;
@@ -21,8 +22,8 @@ const RESIDUAL: f64 = 1e-12;
 /// Rounding of a unit vector, as a multiple of its end's share of its length.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// A straight way that stays clear of the body by less than this share of its size touches it:
-/// far below what single precision can tell of where a vertex is.
+/// A straight path that misses the body by less than this share of the body's size counts as
+/// touching it: single precision cannot place a vertex nearly as exactly.
 const TOUCHING: f64 = 1e-9;
 
 impl ExactPoints for Ellipsoid {

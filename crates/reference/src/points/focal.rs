@@ -1,8 +1,8 @@
-//! Where the beam converges that a mirror reflects.
+//! Focal points: where the beam that a mirror reflects converges.
 //!
-//! Beside a ray that the mirror reflects, the reflected rays of its neighbours span an area with it. It
-//! vanishes at up to two distances t: the roots of det(Pu + t ru, Pv + t rv, r) = 0, for the points P, the
-//! directions r and their derivatives along two directions across the eye ray.
+//! Around a reflected ray, the reflected rays of the neighbouring eye rays span a small area across it.
+//! This area vanishes at up to two distances t: the roots of det(Pu + t ru, Pv + t rv, r) = 0, for the
+//! points P, the directions r and their derivatives along two directions across the eye ray.
 
 use catoptric_scene::Shape;
 use glam::DVec3;

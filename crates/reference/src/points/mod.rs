@@ -1,10 +1,10 @@
 //! Exact reflection points of vertices, in f64, without a search over pixels.
 //!
-//! A point `R` of a mirror reflects vertex `V` to eye `O` where the bisector of the directions
-//! to both is the normal `N` of the reflecting side, and both lie in front: `N·(O−R) > 0` and
-//! `N·(V−R) > 0`. Objects do not occlude here, nor does the mirror itself (the outside of a bowl
-//! may well hide its inside), but for the eye's view of a torus, a saddle or a mesh, whose front may
-//! hide its front.
+//! A point `R` of a mirror reflects vertex `V` to eye `O` where the bisector of the directions to both
+//! is the normal `N` of the reflecting side, and both lie in front: `N·(O−R) > 0` and `N·(V−R) > 0`.
+//! Occlusion is not considered, neither by objects nor by the mirror itself (the outside of a bowl may
+//! well hide its inside). The only exception is the eye's view of a torus, a saddle or a mesh, where
+//! one part of the front may hide another.
 //!
 //! Each shape has a file of its own, named as in `scene::shape`, and a line in the function `exact`:
 //! - sphere and bowl: the roots of Alhazen's quartic, all of them (`alhazen`);
@@ -103,8 +103,8 @@ pub fn true_vertices(scene: &Scene, view: &View) -> Result<Vec<TrueVertex>, NotA
     true_vertices_watched(scene, view, &|_, _| ())
 }
 
-/// As [`true_vertices`], and says now and then how many answers are found, of how many: those of a
-/// finely cut mesh mirror take minutes.
+/// As [`true_vertices`], and reports now and then how many of all answers are found: those of a finely
+/// triangulated mesh mirror take minutes.
 ///
 /// # Errors
 /// As [`true_vertices`].

@@ -1,4 +1,5 @@
-//! The point of a flat mirror that reflects a vertex: where the way to its mirror image crosses.
+//! The point of a flat mirror that reflects a vertex: where the line to the vertex's mirror image
+//! crosses it.
 
 use catoptric_frame::VertexClass;
 use catoptric_scene::shape::Plane;

@@ -68,9 +68,9 @@ impl Solutions {
     }
 }
 
-/// Whether a mirror does not hide a point, of its surface or behind it, from the eye.
+/// Tells whether the eye sees a point, because no other part of the mirror lies before it.
 pub(super) fn seen(shape: &impl MirrorShape, eye: DVec3) -> impl Fn(DVec3) -> bool {
-    /// Share of a mirror's extent by which something hides before it counts as before.
+    /// How much nearer to the eye a hit must be to hide a point, as a share of the mirror's extent.
     const BEFORE: f64 = 1e-6;
     let (low, high) = shape.bounds();
     let margin = BEFORE * (high - low).length();

@@ -1,20 +1,21 @@
-//! All points of a smooth surface over which the way from eye to vertex is stationary.
+//! All points of a smooth surface over which the path from eye to vertex has stationary length.
 //!
-//! By Fermat's principle these are the reflection points, of either side, and the points where
-//! the straight way passes through. On a surface of mixed curvature there may be any number, so
-//! the surface is divided until each part is settled: `L` being the length of the way over the
-//! parameters `q`, `G` its gradient and `H` its second derivative at a part's middle `c`, and `T`
-//! a bound of its third derivative within twice the part's radius `ρ`,
+//! By Fermat's principle these are the reflection points of either side, and the points where the
+//! straight path passes through. On a surface of mixed curvature there may be any number, so the
+//! surface is divided until each part is settled. Let `L` be the length of the path over the
+//! parameters `q`, `G` its gradient and `H` its second derivative at a part's middle `c`, and `T` a
+//! bound of its third derivative within twice the part's radius `ρ`:
 //!
 //! - no zero of `G` lies in the part if `|G| > ‖H‖ρ + Tρ²/2`, nor if Newton's step from the middle
 //!   is longer than `ρ (1 + ‖H⁻¹‖Tρ/2)`, both by Taylor's theorem;
 //! - no reflection point lies in it if all of it faces away from eye or vertex;
 //! - if `‖H⁻¹‖Tρ ≤ 1/4`, `G` is one-to-one on the part and Newton's method from its middle
-//!   converges to its only zero, if it has one: so it is run, and what it does not find is not
-//!   there.
+//!   converges to its only zero, if it has one: so Newton's method is run, and if it finds no zero
+//!   there is none.
 //!
-//! What is neither is divided further. So all points are found, or the answer is that they are
-//! not known: where two are about to meet (on a caustic), or eye or vertex lies on the surface.
+//! A part of which none of this holds is divided further. So either all points are found, or the
+//! answer is that they are not known: where two are about to meet (on a caustic), or eye or vertex
+//! lies on the surface.
 
 use catoptric_frame::VertexClass;
 use glam::{DMat2, DVec2, DVec3};

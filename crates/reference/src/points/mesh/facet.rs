@@ -6,9 +6,9 @@
 //! so that its derivative `F'` is the unit matrix there:
 //!
 //! - no zero lies in the part if the coefficients of a value are all of one sign;
-//! - if `‖F' − 1‖ ≤ ½` for all coefficients of the derivative, `q − F(q)` brings any two places of the
-//!   part at least twice as near to each other, so that there is at most one zero, and iterating, with
-//!   each place moved back into the part, ends at it if there is one.
+//! - if `‖F' − 1‖ ≤ ½` for all coefficients of the derivative, `q − F(q)` at least halves the distance between any two
+//!   places of the part. So there is at most one zero, and the iteration, with each place moved back into the part,
+//!   ends at it if there is one.
 //!
 //! So all are found, and what stays undecided at the smallest parts (two points that are about to meet)
 //! is counted. Flat triangles have the closed form of a plane.

@@ -1,7 +1,7 @@
 //! All points of a mesh mirror that reflect a vertex.
 //!
-//! A hierarchy over the triangles ([`cones`]) leaves few that may; each of those answers by itself, all of its
-//! points or how much stays undecided ([`facet`]).
+//! A hierarchy over the triangles ([`cones`]) leaves few candidates. Each candidate gives all of its points,
+//! and how many of its parts stay undecided ([`facet`]).
 
 mod cones;
 mod facet;

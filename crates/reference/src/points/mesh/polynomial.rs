@@ -1,9 +1,10 @@
 //! Polynomials over a triangle, in the weights of its corners.
 //!
 //! A homogeneous polynomial of degree `n` in the weights `(a, b, c)` has a coefficient for each
-//! `a^(n−i−j) b^i c^j`. Divided by the multinomial number of its powers, it is one of the Bernstein form:
-//! where the weights are not negative the polynomial's value is a mean of those, and so lies between the
-//! least and the greatest of them (Farin, Curves and Surfaces for CAGD, ch. 17).
+//! `a^(n−i−j) b^i c^j`. Divided by the multinomial coefficient of these powers, it is a Bernstein
+//! coefficient: where no weight is negative, the polynomial's value is a weighted mean of the Bernstein
+//! coefficients, and so lies between the least and the greatest of them (Farin, Curves and Surfaces for
+//! CAGD, ch. 17).
 
 use std::ops::AddAssign;
 
@@ -36,8 +37,7 @@ const fn powers<const N: usize>(n: usize) -> [(usize, usize); N] {
     powers
 }
 
-/// Of each coefficient of degree `n`, the ways to order `n` factors of which `i` and `j` are alike, and
-/// the rest.
+/// The multinomial coefficient `n! / (i! j! (n − i − j)!)` of each coefficient of degree `n`.
 const fn multinomials<const N: usize>(n: usize) -> [f64; N] {
     const FACTORIALS: [f64; 5] = [1.0, 1.0, 2.0, 6.0, 24.0];
     let mut ways = [0.0; N];
@@ -77,10 +77,11 @@ fn product<A: Copy, B: Copy, C: Copy + Default + AddAssign, const N: usize, cons
 /// How far a mirror's triangle is from reflecting the eye's rays into a vertex: a polynomial of degree
 /// 4 with two values, both zero exactly where it does.
 ///
-/// With `d` from the eye to the point, `N` the normal and `w` from the point to the vertex, all linear
-/// in the weights, `w × (d (N·N) − 2 (d·N) N)` vanishes where the reflected ray runs through the
-/// vertex, forwards or backwards. It is across `w`; as long as `w` stays within a right angle of one
-/// direction, its components across that direction vanish only with it.
+/// With `d` from the eye to the point, `N` the normal and `w` from the point to the vertex, all linear in
+/// the weights, `w × (d (N·N) − 2 (d·N) N)` vanishes where the reflected ray runs through the vertex,
+/// forwards or backwards. It is perpendicular to `w`. As long as `w` stays within a right angle of one
+/// direction, the product's two components perpendicular to that direction are zero only if the product
+/// is.
 pub(super) struct Miss {
     bernstein: Quartic<DVec2>,
     /// What rounding may add to a coefficient.

@@ -43,11 +43,12 @@ const SCENES: [(&str, &str); 29] = scenes![
 
 /// What a family changes in its template.
 enum Change {
-    /// The number of a key, which is this one in the template.
+    /// Replaces the number of a key; the second string is the number that the key has in the template.
     Number(&'static str, &'static str),
-    /// How many tables of a name there are, which are its last ones: those behind are left out.
+    /// Keeps so many of the tables that begin with this line, which are the last of the template, and drops
+    /// the others.
     Tables(&'static str),
-    /// Which object there is, by its name; the others are left out.
+    /// Keeps one object, by its name, and drops the other objects.
     Object,
 }
 
@@ -117,7 +118,7 @@ const FULL_SIZES: &[(&str, &str)] = &[
     ("500k", "707"),
 ];
 
-/// Those of scenes that are looked at beside a family.
+/// Sizes of scenes that are looked at beside a family.
 const FEW_SIZES: &[(&str, &str)] = &[("1k", "31"), ("10k", "99")];
 
 const FAMILIES: [Family; 11] = [
@@ -214,8 +215,8 @@ const FAMILIES: [Family; 11] = [
     },
 ];
 
-/// Whether a scene of this name is one of many of a sweep that differ in the length of a step, a distance or
-/// a number of segments, and not worth a look of its own.
+/// Whether the name is that of one of many scenes of a sweep that differ only in the length of a step, a
+/// distance or a number of segments, so that it is not worth looking at by itself.
 pub fn is_single_step(name: &str) -> bool {
     moving::is_single_step(name)
 }

@@ -1,5 +1,5 @@
-//! Triangles that lie on one another, corner by corner. Of those a ray sees one, and a hierarchy
-//! must not hold thousands of them.
+//! Triangles that coincide, corner by corner. A ray sees only one of them, and a hierarchy must not
+//! hold thousands of them.
 
 use glam::Vec3;
 

@@ -18,7 +18,7 @@ use self::message::{found, in_a_line};
 use crate::SceneError;
 use crate::suggest::suggest;
 
-/// What stands elsewhere than at the root of a scene, or under another name, and its heading.
+/// Keys that are wrong at the root of a scene, and where each belongs and under which name.
 const ELSEWHERE: [(&str, &str); 5] = [
     ("move", "[[motion.move]], below [motion]"),
     ("objects", "[[object]], once for each of them"),

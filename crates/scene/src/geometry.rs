@@ -11,23 +11,23 @@ use crate::mesh::{Material, Mesh};
 pub(crate) struct Geometry {
     pub positions: Vec<DVec3>,
     pub triangles: Vec<[u32; 3]>,
-    /// A corner each, like `uvs` and `colors`; empty where there are none.
+    /// One per corner, like `uvs` and `colors`; empty where there are none.
     pub normals: Vec<[DVec3; 3]>,
     /// Corners that have no normal although others have; empty where all have.
     pub bare: Vec<[bool; 3]>,
-    /// How corners get the normals that they lack, a triangle each; empty where all are flat.
+    /// How corners get the normals that they lack, one per triangle; empty where all are flat.
     pub smoothing: Vec<Smoothing>,
     pub uvs: Vec<[Vec2; 3]>,
     pub colors: Vec<[Vec3; 3]>,
-    /// A triangle each; empty where all use the first of `materials`.
+    /// One per triangle; empty where all use the first of `materials`.
     pub material: Vec<u32>,
     pub materials: Vec<Material>,
 }
 
-/// With which triangles one shares its normals, where they meet.
+/// With which triangles a triangle shares its normals where they meet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub(crate) enum Smoothing {
-    /// Nothing is said: with none in an object, in a mirror with all of which nothing is said.
+    /// Not given: in an object with none, in a mirror with all others for which it is not given.
     #[default]
     Unsaid,
     /// With none.
@@ -118,8 +118,8 @@ impl Geometry {
             .collect();
     }
 
-    /// The mesh in world space, once for each of `copies`. Positions equal after the transform
-    /// become one, collapsed triangles and (where there are triangles) unused positions go.
+    /// The mesh in world space, once for each of `copies`. Positions that are equal after the transform
+    /// are merged; collapsed triangles and (where there are triangles) unused positions are removed.
     pub(crate) fn into_mesh(self, copies: &[Transform], purpose: Purpose) -> Result<Mesh, String> {
         let mut used = vec![self.triangles.is_empty(); self.positions.len()];
         self.triangles
@@ -193,11 +193,11 @@ impl Geometry {
 #[derive(Default)]
 struct Built {
     mesh: Mesh,
-    /// Of its positions, by their bits.
+    /// Index of each position, by the position's bits.
     indices: HashMap<[u32; 3], u32>,
     /// Corners whose normal is not known; empty where none is.
     bare: Vec<[bool; 3]>,
-    /// A triangle each.
+    /// One per triangle.
     smoothing: Vec<Smoothing>,
 }
 

@@ -4,8 +4,8 @@
 //! positions merged, names and ids settled. It renders nothing; both renderers (the reference and
 //! the GPU techniques) read it and share nothing else.
 //!
-//! A scene may move ([`Motion`]): [`Scene::at`] gives it as it stands at a frame. Whoever shows a
-//! single picture shows the scene as it is, which is frame 0. In a scene file:
+//! A scene may move ([`Motion`]): [`Scene::at`] gives it as it stands at a frame. A single picture
+//! shows the scene as it is, which is frame 0. In a scene file:
 //!
 //! ```toml
 //! [motion]

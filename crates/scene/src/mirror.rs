@@ -18,11 +18,12 @@ pub struct Mirror {
     /// World-space centres of the cube maps that a technique may trace its reflections in, the most
     /// useful first; mostly empty.
     pub cubemaps: Vec<DVec3>,
-    /// Closed meshes, world space, of which the pieces of a mesh mirror are cut: a technique that needs
-    /// a closed surface that its centre sees once fills what the mirror leaves open from them (Estalella
-    /// et al. 2005, §6.2). Mostly empty; no picture of the truth depends on them.
+    /// Closed meshes, world space, from which the pieces of a mesh mirror were cut. A technique that
+    /// needs a closed surface that its centre sees exactly once all around takes from them what an open
+    /// mirror lacks (Estalella et al. 2005, §6.2). Mostly empty; no picture of the truth depends on
+    /// them.
     pub proxies: Vec<Mesh>,
-    /// How it has moved since the first frame: what is fixed to the mirror, such as a scratch, has
-    /// moved so too, even where the surface looks the same, as that of a turned ball does.
+    /// How it has moved since the first frame. What is fixed to the mirror, such as a scratch, has moved
+    /// with it, even if the surface looks the same, as that of a turned ball does.
     pub pose: Pose,
 }

@@ -52,7 +52,8 @@ pub struct Move {
     pub rotate_deg: DVec3,
     /// World-space point around which it rotates.
     pub about: DVec3,
-    /// Way by the last frame, along a straight line at an even pace, after the rotation.
+    /// Translation by the last frame, world space, along a straight line at an even pace, after the
+    /// rotation.
     pub translate: DVec3,
 }
 

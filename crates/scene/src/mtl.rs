@@ -1,7 +1,8 @@
 //! MTL files: diffuse colours and their textures.
 //!
-//! A file is read as the statements of its materials. Only those of a material that is used are
-//! understood, and only its picture is read: what nothing uses cannot be wrong.
+//! A file is read as the statements of its materials. Only the materials that are used are
+//! interpreted, and only their pictures are read, so that an error in an unused material does no
+//! harm.
 
 use std::path::{Path, PathBuf};
 
@@ -12,7 +13,7 @@ use crate::loading::Loading;
 use crate::mesh::{Material, Paint};
 use crate::text::{self, at_line};
 
-/// Colour of a surface that nothing gives a colour.
+/// Colour of a surface for which no colour is given.
 pub(crate) const DEFAULT_COLOR: Vec3 = Vec3::splat(0.8);
 
 /// A material, and how its texture lies on a mesh.

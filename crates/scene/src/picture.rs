@@ -1,9 +1,9 @@
 //! Picture files of textures, and how their values become linear ones.
 //!
-//! What a picture is says its content, not its name. A PNG says itself how its values were
-//! encoded, in its chunks cICP, sRGB or gAMA (in this order; PNG specification, third edition,
-//! 4.3); without any of them, and in a JPEG, they are sRGB. Colour profiles and primaries are not
-//! looked at, transparency is dropped.
+//! The kind of a picture is recognized by its content, not by its name. A PNG states how its values
+//! were encoded, in its chunks cICP, sRGB or gAMA (in this order; PNG specification, third edition,
+//! 4.3); without any of them, and in a JPEG, they are sRGB. Colour profiles and primaries are
+//! ignored, transparency is dropped.
 
 use std::io::Cursor;
 use std::path::{Path, PathBuf};

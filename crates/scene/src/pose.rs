@@ -33,12 +33,12 @@ impl Pose {
         self.0.linear * axes
     }
 
-    /// Where a point was that the motion has brought here.
+    /// Where a point was before the motion that brought it here.
     pub fn undone(&self, point: DVec3) -> DVec3 {
         self.0.linear.transpose() * (point - self.0.translate)
     }
 
-    /// How a direction was turned that the motion has turned so.
+    /// What a direction was before the motion that turned it to this one.
     pub fn unturned(&self, direction: DVec3) -> DVec3 {
         self.0.linear.transpose() * direction
     }

@@ -1,4 +1,4 @@
-//! A small random generator, the same everywhere and for ever.
+//! A small random generator that gives the same numbers on every machine and in every version.
 
 /// SplitMix64 (Steele, Lea, Flood 2014).
 #[derive(Clone, Debug)]

@@ -32,7 +32,8 @@ impl Samples {
 }
 
 impl Texture {
-    /// Of so many texels a row and rows; `table` holds the linear value of each stored one.
+    /// A texture of `size` texels (width, height); `table` holds the linear value of each stored
+    /// value.
     ///
     /// # Panics
     /// Unless there are as many samples as texels, and as many values as can be stored.
@@ -50,7 +51,7 @@ impl Texture {
         }
     }
 
-    /// Of 8 bits a channel that are stored as they are, 0 to 1.
+    /// A texture of 8 bits a channel whose stored values are linear, from 0 to 1.
     ///
     /// # Panics
     /// As [`Texture::new`].
@@ -74,7 +75,7 @@ impl Texture {
         &self.samples
     }
 
-    /// The linear value of each stored one.
+    /// The linear value of each stored value.
     pub fn table(&self) -> &[f32] {
         &self.table
     }

@@ -3,7 +3,7 @@
 use crate::setup::on_path;
 use crate::step::Step;
 
-/// A check by a program that does not come with Rust: made where it is installed.
+/// A check by a program that does not come with Rust: it is run where the program is installed.
 struct Tool {
     /// The program that must be on the path.
     program: &'static str,
@@ -37,7 +37,7 @@ const TOOLS: [Tool; 4] = [
     },
 ];
 
-/// How Chromium may be called: with it, the pages are tested as they are used.
+/// Names under which Chromium may be installed; with it, the tests use the pages in a browser.
 const BROWSERS: [&str; 4] = [
     "chromium",
     "chromium-browser",
@@ -50,7 +50,8 @@ pub fn checks() -> (Vec<Step>, Vec<String>) {
     checks_where(on_path)
 }
 
-/// The tests with what is asked of this machine, and a line about those that are skipped.
+/// The tests, told which of this machine's programs they must use, and a line about the tests that
+/// are skipped.
 pub fn tests(all: Step) -> (Step, Option<String>) {
     tests_where(all, on_path)
 }
@@ -65,7 +66,7 @@ fn tests_where(mut all: Step, installed: impl Fn(&str) -> bool) -> (Step, Option
     (all, Some(line.to_owned()))
 }
 
-/// The checks on a machine that has those programs of which `installed` says so.
+/// The checks on a machine where `installed` says which of those programs there are.
 fn checks_where(installed: impl Fn(&str) -> bool) -> (Vec<Step>, Vec<String>) {
     let mut steps = vec![Step::cargo("fmt --all --check")];
     let mut skipped = Vec::new();

@@ -1,4 +1,4 @@
-//! The techniques on two Vulkan drivers, the second held against the first.
+//! The techniques on two Vulkan drivers, the second compared with the first.
 
 use std::path::{Path, PathBuf};
 

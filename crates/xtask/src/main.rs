@@ -92,7 +92,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// The root of the tree that `cargo run` runs this program of.
+/// The root of the working tree from which `cargo run` started this program.
 fn root() -> PathBuf {
     let here = env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
     let here = here.unwrap_or_else(|| env!("CARGO_MANIFEST_DIR").into());
@@ -173,7 +173,8 @@ fn minutes(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "0 to 10000".to_owned())
 }
 
-/// The fuzz targets, one after the other, from an input on that no run has begun with.
+/// The fuzz targets, one after the other, each beginning with an input with which no earlier run
+/// began.
 fn fuzz(minutes: f64, target: Option<&str>) -> Step {
     let mut step = Step::cargo("test --release --workspace --test fuzz -- --nocapture");
     step.args.push("--test-threads=1".into());

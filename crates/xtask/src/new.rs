@@ -1,5 +1,5 @@
-//! `cargo xtask new KIND NAME`: writes what something new starts from, and the lines that make it
-//! known. The templates are techniques that work, if not well.
+//! `cargo xtask new KIND NAME`: writes what something new starts from, and the lines that register
+//! it. The templates are techniques that work, though not well.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,11 +1,11 @@
-//! `moving-MIRROR-WHAT`: one room before each kind of mirror, in which the camera, an object, the
-//! mirror, or all of them move. With an ending, what a sweep needs: `-step-PX` is a single step of about so
-//! many pixels, `-within-D` such a step of 4 pixels in a tube of radius D around the view instead of the room,
-//! `-segments-N` one of 4 pixels before a mesh of so many segments.
+//! `moving-MIRROR-WHAT`: one room in front of each kind of mirror, in which the camera, an object, the mirror,
+//! or all of them move. An ending makes it a scene of a sweep: `-step-PX` is a single step of about PX pixels,
+//! `-within-D` a step of about 4 pixels in a tube of radius D around the view instead of the room,
+//! `-segments-N` a step of about 4 pixels in front of a mesh of N segments.
 //!
-//! Every sequence has the same pace: its steps grow from less than 0.05 pixels to more than 15 of
-//! true motion of the reflections, so that what depends on the length of a step is seen in one
-//! sequence. How far things go by the last frame is measured for each scene.
+//! All sequences have the same pace: the true motion of the reflections grows from less than 0.05 to more than
+//! 15 pixels a step, so that one sequence shows what depends on the length of a step. How far things go by the
+//! last frame was measured for each scene.
 
 use std::fmt::Write;
 
@@ -26,7 +26,7 @@ struct Moving {
     called: &'static str,
     /// The keys of its `[[mirror]]`.
     mirror: &'static str,
-    /// How far what moves goes, in the order of [`WHAT`]: factors of the ways in [`motion`].
+    /// Factors of the motions in [`motion`], in the order of [`WHAT`].
     reach: [f64; 4],
 }
 
@@ -111,7 +111,7 @@ const ENDINGS: [(&str, &str, &[&str]); 9] = [
 ];
 const STEPS: &[&str] = &["-step-0.1", "-step-0.3", "-step-1", "-step-10", "-step-30"];
 
-/// The step of endings that do not say, in pixels.
+/// The step of endings that give none, in pixels.
 const USUAL: f64 = 4.0;
 
 /// Whether a scene is one of the single steps of a sweep.
@@ -208,8 +208,8 @@ checker = { a = [0.84, 0.80, 0.72], b = [0.18, 0.24, 0.32], cells = 16 }
 transform = { rotate_deg = [90.0, 0.0, 0.0] }
 "#;
 
-/// `[motion]` of one thing or of all, so many times as far as things go with 1; or a single step of so
-/// many pixels.
+/// `[motion]` of one thing or of all, with `reach` as the factor of all motions; or a single step of about
+/// `step` pixels.
 fn motion(what: &str, reach: f64, step: Option<f64>) -> String {
     let moves = |part: &str| what == part || what == "all";
     // The last step of a sequence is the longest.

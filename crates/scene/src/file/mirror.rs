@@ -43,7 +43,7 @@ pub(super) fn mirror(table: &Table<'_>, origin: &Origin<'_>) -> Result<Mirror, S
     })
 }
 
-/// A closed mesh of which a piece of the mirror is cut.
+/// A closed mesh from which a piece of the mirror was cut.
 fn proxy(table: &Table<'_>, origin: &Origin<'_>) -> Result<Mesh, SceneError> {
     match surface_of(table, origin)? {
         Shape::Mesh(mesh) if mesh.is_closed() => Ok(mesh),

@@ -420,7 +420,7 @@ impl Placed {
     }
 }
 
-/// World from a node's own space, were there nothing above it.
+/// World from a node's own space, as if the node had no parent.
 fn placement(node: &json::Node) -> DMat4 {
     if let Some(matrix) = node.matrix {
         return DMat4::from_cols_array(&matrix.map(f64::from));

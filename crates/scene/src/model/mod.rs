@@ -1,7 +1,7 @@
 //! Model files: meshes with their materials, in one space of their own.
 //!
-//! `mesh = "…"` of a scene file reads any of them as one surface. Who takes over scenes from elsewhere
-//! gets the parts one by one.
+//! `mesh = "…"` of a scene file reads any of them as one surface. The import of whole scenes gets the
+//! parts one by one.
 
 mod accessors;
 mod gltf;

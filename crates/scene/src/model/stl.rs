@@ -79,7 +79,7 @@ pub(super) fn read(path: &Path, copies: usize, loading: &Loading) -> Result<Tria
     Ok(shared(mesh))
 }
 
-/// The same triangles, whose corners share what is bitwise equal: else nothing would be smooth.
+/// The same triangles with bitwise equal corners merged: otherwise nothing could be smooth.
 fn shared(mesh: Triangles) -> Triangles {
     let mut known = std::collections::HashMap::new();
     let mut positions: Vec<DVec3> = Vec::new();
@@ -101,7 +101,7 @@ fn shared(mesh: Triangles) -> Triangles {
     }
 }
 
-/// Hands out text line by line, so that the line is known that the reader is at.
+/// Hands out text line by line, so that the line that the reader has reached is known.
 struct Lines {
     bytes: Cursor<Vec<u8>>,
     line: usize,

@@ -1,11 +1,11 @@
 //! Faces of more than three corners, in triangles.
 //!
-//! The corners are looked at along that axis of space which is nearest to the face's normal (by
-//! Newell's sum, which holds for faces that are not quite flat, too). Dropping a coordinate keeps
-//! what is straight straight, to the last bit, where a rotation into the plane would not. A convex
-//! face is a fan around its first corner, as other renderers split it; of others, ears are cut by
-//! `earcut`. It leaves out corners on a straight side at times; these are put
-//! back, so that a neighbour that has them too still shares all edges.
+//! The corners are projected along the axis of space that is nearest to the face's normal (by
+//! Newell's sum, which also holds for faces that are not quite flat). Dropping a coordinate keeps
+//! straight lines exactly straight, which a rotation into the plane would not. A convex face is a
+//! fan around its first corner, as other renderers split it; from other faces `earcut` cuts ears.
+//! At times `earcut` leaves out corners on a straight side. These are put back, so that a neighbour
+//! that has them too still shares all edges.
 
 use earcut::{Earcut, deviation};
 use glam::{DVec2, DVec3};
@@ -110,9 +110,9 @@ impl Triangulator {
         }
     }
 
-    /// Whether the sides of the face that was triangulated last cross each other, or what they
-    /// enclose is not what its triangles cover. Sides that touch, or lie on each other as those
-    /// to a hole do, are no fault.
+    /// Whether sides of the face that was triangulated last cross each other, or its triangles do
+    /// not cover what its sides enclose. Sides that touch, or lie on each other as those to a hole
+    /// do, are no fault.
     pub(super) fn is_crossed(&self) -> bool {
         let count = self.points.len();
         if count <= 3 {

@@ -47,7 +47,7 @@ pub(super) struct Corner {
 
 pub(super) struct Face {
     pub line: usize,
-    /// Where in all corners its own end; they start where those of the face before end.
+    /// Where its own corners end among all corners; they start where those of the face before end.
     pub end: usize,
     /// Index into `uses`; `None` before the first.
     pub material: Option<usize>,

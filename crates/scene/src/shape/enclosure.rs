@@ -1,5 +1,5 @@
-//! Whether points lie inside a closed mesh, for many points: on a grid, so that of a large mesh few
-//! triangles are looked at for each.
+//! Whether points lie inside a closed mesh, for many points: on a grid, so that few triangles of a
+//! large mesh are tested for each point.
 
 use glam::{DVec2, DVec3};
 
@@ -8,7 +8,7 @@ use crate::mesh::Mesh;
 /// Most cells along a side of the grid.
 const MOST_CELLS: f64 = 1024.0;
 
-/// Most places of a triangle in cells, on average.
+/// Most cells that a triangle lies in, on average.
 const PLACES: f64 = 8.0;
 
 /// The triangles of a closed mesh, by where they lie in y and z.
@@ -18,7 +18,7 @@ pub(crate) struct Enclosure<'a> {
     high: DVec3,
     /// Cells a side.
     side: usize,
-    /// Where the triangles of each cell begin, and after the last end.
+    /// Where the triangles of each cell begin; the last entry is where those of the last cell end.
     begins: Vec<u32>,
     triangles: Vec<u32>,
 }

@@ -88,9 +88,9 @@ pub trait MirrorShape {
         None
     }
 
-    /// Which way the closed surface faces that the mirror is, or was cut from, if the centre sees
-    /// each point of it exactly once, as a cube map of the surface needs. Else why not, to be read
-    /// after the mirror's name.
+    /// Which way the closed surface faces that the mirror is, or was cut from. A cube map of the surface
+    /// needs the centre to see each point of it exactly once; where it does not, the error says why, to be
+    /// read after the mirror's name.
     fn facing(&self) -> Result<Facing, &'static str> {
         Err(HIDDEN)
     }

@@ -1,5 +1,5 @@
-//! Real roots of polynomials, enclosed between those of the derivative, which are enclosed likewise:
-//! none is lost and none needs a start.
+//! Real roots of polynomials. Each is enclosed between neighbouring roots of the derivative, which
+//! are found in the same way: no root is lost, and none needs a starting value.
 
 /// A short list.
 #[derive(Clone, Copy, Debug)]

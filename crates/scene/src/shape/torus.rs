@@ -170,8 +170,8 @@ impl MirrorShape for Torus {
         })
     }
 
-    /// A torus is seen at glancing angles all along, where what is seen moves by far more than the
-    /// surface: with three times as many segments its normals are as exact as those of a sphere.
+    /// A torus shows glancing angles all along, where a small error of the surface moves the reflection by far
+    /// more. With three times as many segments its normals are as exact as those of a sphere.
     fn fine_segments(&self) -> u32 {
         3072
     }

@@ -1,4 +1,4 @@
-//! The one door to what goes on inside a technique: pictures of that ask here.
+//! Questions about the inside of a technique, for pictures that show it: the only access to it.
 
 use catoptric_frame::Traced;
 use glam::{Vec2, Vec3};
@@ -13,7 +13,7 @@ pub enum Question {
         /// Index among the scene's mirrors.
         mirror: usize,
     },
-    /// What following the reflected rays took, pixel by pixel.
+    /// The work of following the reflected rays, pixel by pixel.
     Traced,
     /// The pyramid over the first mirror's cube maps of distance.
     DistanceLevels,
@@ -26,7 +26,7 @@ pub enum Answer {
     Path(Vec<Visit>),
     /// Counts.
     Traced(Traced),
-    /// From single texels to a cell a face.
+    /// From single texels up to one cell per face.
     DistanceLevels(Vec<DistanceLevel>),
 }
 

@@ -5,7 +5,7 @@
 //!
 //! [`embed`] is apart: one technique, `beams`, for a renderer that has its own device, G-buffer and triangles.
 //!
-//! The rooms, each built on those before it:
+//! The modules, each built on those before it:
 //! * `gpu/`: device, buffers, pipelines, shader linking, recorder, clock; knows nothing of mirrors;
 //! * `stage/`: what every technique stands on;
 //! * `technique.rs`: what a technique is to the rest;

@@ -1,6 +1,6 @@
 //! Options of techniques. A technique declares its options once, by [`options!`], as a struct with
-//! documented fields: the struct is what it reads, the table made from the same lines is what names
-//! are parsed by and what is listed.
+//! documented fields. The technique reads the struct; a table made from the same lines serves to
+//! parse names and to list the options.
 
 /// One option of a technique.
 #[derive(Clone, Copy, Debug)]
@@ -69,7 +69,7 @@ impl OptionInfo {
         }
     }
 
-    /// The value that is written so; `None` if the option does not take it.
+    /// The value that `text` stands for; `None` if the option does not take it.
     pub(crate) fn settle(&self, text: &str) -> Option<Value> {
         match self.values {
             Values::Words(words) => words.iter().position(|word| *word == text).map(Value::Word),

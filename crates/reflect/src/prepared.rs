@@ -26,8 +26,8 @@ impl<'g> Prepared<'g> {
         }
     }
 
-    /// Brings a technique that carries answers from frame to frame to where the second frame of a
-    /// still scene finds it; does nothing for others.
+    /// Renders a frame if the technique carries answers from frame to frame, so that the next frame
+    /// is like the second one of a still scene; does nothing for others.
     ///
     /// # Errors
     /// As [`Prepared::render`].
@@ -92,8 +92,8 @@ impl<'g> Prepared<'g> {
         Ok(answer)
     }
 
-    /// Takes over what moved since the last frame: eye, object vertices, mirrors. Nothing is
-    /// prepared anew that the motion does not touch.
+    /// Takes over what moved since the last frame: eye, object vertices, mirrors. Only what the
+    /// motion affects is prepared anew.
     ///
     /// # Errors
     /// A scene with other objects, triangles or mirrors than the one prepared for; whatever fails on

@@ -1,5 +1,5 @@
-//! What a technique is to the rest: how it introduces itself, what it is like, and that it records
-//! frames and hands over what it drew and counted.
+//! What a technique is to the rest of the crate: its description, its properties, and the trait by which
+//! it records frames and hands over what it drew and counted.
 
 use std::fmt;
 
@@ -89,11 +89,11 @@ pub(crate) trait Named: Options {
     const INFO: Info;
 }
 
-/// What a technique is like: asked by those who would else have to know it by its name. All false
-/// but for what holds.
+/// Properties of a technique, for code that would otherwise have to know it by its name. Each is true
+/// only where it holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Properties {
-    /// It follows the reference's own rays from the reference's own points: what it is off by is the
+    /// It follows the reference's own rays from the reference's own points: its errors are the
     /// measurement's noise.
     pub is_control: bool,
     /// A vertex may fall into a gap of its hierarchy; it tells of which vertices did ("holes").
@@ -102,7 +102,7 @@ pub struct Properties {
     pub walks: bool,
     /// Triangles are split.
     pub splits_triangles: bool,
-    /// A frame is found more easily after another one.
+    /// A frame takes less work after another one, since it starts from that one's answers.
     pub carries_over: bool,
     /// Vertices behind the tangent plane are continued, so that triangles are drawn that the mirror
     /// hides in part.
@@ -177,7 +177,7 @@ pub(crate) trait Technique {
         Ok(false)
     }
 
-    /// Whether a frame is found more easily after another one.
+    /// Whether a frame takes less work after another one.
     fn carries_over(&self) -> bool {
         false
     }
@@ -200,8 +200,8 @@ pub(crate) trait Technique {
 pub struct Output {
     /// All layers.
     pub frame: Frame,
-    /// Whether mirror pixels may be left without an answer; else that there is none counts as
-    /// seeing nothing.
+    /// Whether mirror pixels may be left without an answer; otherwise a pixel without one counts as
+    /// showing nothing.
     pub may_be_unresolved: bool,
     /// By mirror, object, vertex; `None` for techniques that search no vertices.
     pub vertices: Option<Vec<VertexResult>>,

@@ -1,10 +1,10 @@
 //! GPU time of passes, measured from END stamp to END stamp.
 //!
-//! Stamps at a pass's beginning are not trusted (a software driver gets them wrong once a render
-//! pass has run). The first pass lasts from a lone stamp before it, submitted with the frame once all
-//! that was submitted before has run: neither uploads nor the recording of the frame count.
-//! Passes that do not depend on each other may overlap; then the time of both counts for the one
-//! that ends first.
+//! Stamps at a pass's beginning are not trusted (a software driver gets them wrong once a render pass
+//! has run). The first pass lasts from a lone stamp before it. That stamp is submitted with the frame,
+//! after everything submitted before has run: neither uploads nor the recording of the frame count. If
+//! passes that do not depend on each other overlap, the time of both counts for the one that ends
+//! first.
 
 use super::device::Gpu;
 use super::recorder::Recorder;
@@ -27,7 +27,8 @@ pub struct FrameTime {
     pub build_ms: Option<f64>,
 }
 
-/// Share of the wall time by which the passes may miss it, beside what an empty submission takes.
+/// Share of the wall time by which the sum of the passes may differ from it, apart from the time of an
+/// empty submission.
 const PASSES_MISS_WALL: f64 = 0.1;
 
 /// Empty submissions that are timed for the median.

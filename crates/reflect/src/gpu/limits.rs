@@ -1,14 +1,16 @@
-//! What a device can hold, asked before anything is made on it, and what goes wrong all the same.
+//! The limits of a device, checked before anything is made on it, and the faults that happen all the
+//! same.
 //!
-//! Whoever makes a buffer or a texture need not look: what is beyond a limit is noted and a small
-//! stand-in made, as wgpu itself goes on with invalid resources. [`Gpu::check`] tells, before
-//! anything is read from them.
+//! Code that makes a buffer or a texture need not check anything: what is beyond a limit is noted
+//! and a small stand-in is made, as wgpu itself goes on with invalid resources. [`Gpu::check`]
+//! reports the fault, before anything is read from them.
 
 use super::device::Gpu;
 use super::error::BuildError;
 
 /// Most bytes of buffers and textures that one technique makes, on any device: the largest picture
-/// takes less. What is beyond it would fail on most, and on software devices take the machine along.
+/// takes less. More would fail on most devices, and on a software device could bring down the
+/// machine.
 const MOST_BYTES: u64 = 8 << 30;
 
 impl Gpu {

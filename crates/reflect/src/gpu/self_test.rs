@@ -15,9 +15,10 @@ pub struct SelfTest {
 
 /// Share of the frame that the known load must account for.
 const LOAD_SHARE: f64 = 0.5;
-/// The load grows until a frame takes as long, in milliseconds, so that nothing else counts.
+/// The load is increased until a frame takes this long, in milliseconds, so that all else is
+/// negligible.
 const LOAD_MS: f64 = 50.0;
-/// It does not grow beyond so many dispatches.
+/// Most dispatches of the load.
 const MOST_LOAD: u32 = 1 << 14;
 
 impl Gpu {

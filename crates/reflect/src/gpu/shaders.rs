@@ -4,9 +4,9 @@
 //! folder of programs, such as `cubemap_trace/`, may hold modules that these alone import.
 //! A program's features are the names in its `@if(…)` and those of the modules it imports.
 //!
-//! Where one module of a folder is to be chosen by number, a line `//each FOLDER: CODE` stands for
-//! its code once a module of `FOLDER`, with `$name` and `$number` (`number_in`) put in: a new
-//! module there needs no other line.
+//! Where a module of a folder is to be chosen by number, a line `//each FOLDER: CODE` is replaced by `CODE`
+//! once for each module of `FOLDER`, with `$name` and `$number` (`number_in`) put in: a new module in the
+//! folder needs no other line.
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -176,7 +176,8 @@ pub(crate) mod tests {
             .collect()
     }
 
-    /// Of programs with more features, sets of at most two, and all: their sets are too many.
+    /// Most features of a program for which all sets are tried; of more features, only sets of at most two,
+    /// and all.
     const ALL_SETS: usize = 5;
 
     /// All sets of up to [`ALL_SETS`] features; of more features, all sets of at most two, and all.

@@ -1,6 +1,6 @@
-//! Triangles that lie on one another: of those the first is met. Within an object they do so in every frame
-//! and are left out once and for all; those of several objects may part, and become points as long as they
-//! do not.
+//! Coincident triangles, of which rays meet the first alone. Those of one object coincide in every frame and are
+//! left out once and for all. Those of several objects may part; as long as they coincide, all but the first are
+//! collapsed to points.
 
 use catoptric_scene::{Scene, first_of_coincident};
 use glam::Vec3;

@@ -1,5 +1,5 @@
-//! Cube maps of the scene: colour, id and world distance seen from several centres, and of the
-//! mirrors, where wanted, their normals too, among the objects or in maps of their own. Read by `shared/maps.wesl`.
+//! Cube maps of the scene: colour, id and world distance seen from several centres. If asked for, they show the
+//! mirrors too, with normals, among the objects or in maps of their own. Read by `shared/maps.wesl`.
 
 use catoptric_scene::{Scene, View};
 use encase::ShaderType;

@@ -6,8 +6,8 @@
 //! the control's (`ray-trace`), so that the motion alone is judged; the picture is theirs too. The G-buffer of the frame
 //! before is kept, as an application would keep it: no time of a frame contains it.
 //!
-//! The frame before is the one that was shown before [`Technique::update`]; until then there is none, and no motion is
-//! told.
+//! The frame before is the one that was shown before [`Technique::update`]; until then there is none, and the technique
+//! gives no motion.
 
 pub(crate) mod flat;
 pub(crate) mod lens;
@@ -33,7 +33,7 @@ use crate::stage::options::StageOptions;
 use crate::stage::variant::Variant;
 use crate::technique::{Built, Output, Technique};
 
-/// Triangles whose index an f32 tells apart.
+/// Most triangles whose indices an f32 can tell apart.
 const MOST_TRIANGLES: usize = 1 << 24;
 
 words! {

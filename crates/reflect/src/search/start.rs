@@ -1,7 +1,7 @@
-//! Searches on the image that start at one texel for all vertices: where the mirror's centre, or its
-//! bounding box's, is projected; the pass `start` (`start.wesl`). It looks at that one texel, as
-//! `MirrorCenter` of Szabo 2013, Alg. 3.2, and scans the image for the nearest only where the texel
-//! does not show the mirror.
+//! Searches in the image that start at one texel for all vertices: the projection of the mirror's
+//! centre or of its bounding box's centre; the pass `start` (`start.wesl`). The pass tests that one
+//! texel, as `MirrorCenter` of Szabo 2013, Alg. 3.2, does, and scans the image for the nearest one
+//! only if that texel does not show the mirror.
 
 use catoptric_scene::{Mirror, View};
 use glam::{DVec2, Vec2};

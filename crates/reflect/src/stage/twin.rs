@@ -1,6 +1,6 @@
-//! What CPU twins read. A twin is what can be wrong in silence on the GPU, run again line by line
-//! in `f32`: the file `twin.rs` in a technique's folder. Twins are kept close to the shaders' text,
-//! so that the two can be compared by eye; they are for tests.
+//! What CPU twins read. A twin runs again on the CPU, line by line in `f32`, what could be wrong
+//! unnoticed on the GPU: the file `twin.rs` in a technique's folder. Twins are kept close to the
+//! shaders' text, so that the two can be compared by eye; they are for tests.
 
 use glam::{IVec2, Vec2, Vec3, Vec4};
 

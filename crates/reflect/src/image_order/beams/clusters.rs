@@ -1,5 +1,5 @@
-//! Neighbouring triangles in clusters, made once: a cluster whose box no ray of a node may meet spares
-//! that node the tests of all its triangles.
+//! Neighbouring triangles in clusters, made once. If no ray of a node may meet a cluster's box, the node
+//! need not test the cluster's triangles.
 
 use catoptric_scene::Scene;
 use glam::Vec3;
@@ -9,12 +9,12 @@ use crate::image_order::coincident::{self, Slot};
 /// Triangles of a cluster; only the last one has fewer. Twin of `CLUSTER` in `beams/node.wesl`.
 pub(super) const CLUSTER: usize = 32;
 
-/// Of more triangles, halves are taken along the longest side of their box; of fewer, the best cut of
-/// all sides is looked for.
+/// More triangles than this are halved along the longest side of their box; for fewer, the best cut along
+/// any axis is found.
 const MANY: usize = 1 << 15;
 
-/// All places, one cluster after the other; triangles of mirrors come before those of objects in what their
-/// indices count.
+/// The places of all triangles, one cluster after the other. Indices count the mirrors' triangles first,
+/// then those of the objects.
 pub(super) fn clusters(scene: &Scene, mirrors: &[[Vec3; 3]]) -> Vec<Slot> {
     let of_objects = coincident::slots(scene, mirrors.len() as u32);
     let positions = coincident::positions(scene);

@@ -1,14 +1,13 @@
 //! Beams in a renderer of one's own: exact reflections on its own device, from its own G-buffer, of its
 //! own triangles, recorded into its own encoder.
 //!
-//! [`Beams`] answers one question: what does each mirror pixel's reflected ray meet? The answer is a
-//! texture with a triangle, a distance and weights a pixel; what that looks like is the renderer's own
-//! business, as its materials are. Nothing is approximated: the answer is a ray tracer's, without a
-//! hierarchy over the scene, so that triangles may move as they like.
+//! [`Beams`] answers one question: what does each mirror pixel's reflected ray meet? The answer is a texture with a
+//! triangle, a distance and weights for each pixel; shading and materials are left to the renderer. Nothing is
+//! approximated: the answer is a ray tracer's, without a hierarchy over the scene, so that triangles may move freely.
 //!
-//! 1. [`Beams::new`] takes the device, the triangles and the G-buffer. It looks at the positions once, to
-//!    put neighbours together; that stays right whatever moves later, and fast while neighbours stay
-//!    neighbours.
+//! 1. [`Beams::new`] takes the device, the triangles and the G-buffer. It reads the positions once, to group
+//!    neighbouring triangles. The answers stay right whatever moves later, and the speed is kept while neighbours
+//!    stay neighbours.
 //! 2. In each frame the renderer draws its G-buffer and writes its vertices as it does anyway, calls
 //!    [`Beams::record`], and reads [`Beams::hits`] in a later pass of the same encoder.
 //!
@@ -162,8 +161,8 @@ pub enum Error {
     Device(#[from] ReflectError),
 }
 
-/// Exact reflections of triangles in mirrors, on a device of the caller's. One reflection: mirrors see triangles,
-/// and other mirrors where their triangles are among these.
+/// Exact reflections of triangles in mirrors, on the caller's device. Rays are reflected once: mirrors show
+/// triangles, and other mirrors only if their triangles are among these.
 pub struct Beams {
     gpu: Gpu,
     source: Source,
@@ -401,7 +400,7 @@ fn check(triangles: &Triangles<'_>, gbuffer: GBuffer<'_>) -> Result<(), Error> {
     }
 }
 
-/// By what rounding is judged: the diagonal of the box around all vertices and the origin.
+/// The length that rounding is relative to: the diagonal of the box around all vertices and the origin.
 fn extent(positions: &[Vec3]) -> f32 {
     let (low, high) = (positions.iter()).fold((Vec3::ZERO, Vec3::ZERO), |(low, high), position| {
         (low.min(*position), high.max(*position))

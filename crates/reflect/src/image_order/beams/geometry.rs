@@ -55,7 +55,7 @@ pub(super) struct Geometry {
 }
 
 impl Geometry {
-    /// All objects' triangles, and those mirrors' that are met by theirs.
+    /// All objects' triangles, and those of the mirrors that rays meet as triangles.
     ///
     /// # Errors
     /// More triangles than the device's textures hold.

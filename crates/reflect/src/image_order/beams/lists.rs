@@ -1,8 +1,8 @@
 //! Which clusters the large nodes may meet, and what the tiles' rays meet of them (`beams/sift.wesl`,
 //! `beams/split.wesl`, `beams/tiles.wesl`).
 //!
-//! The list of a node has room for all clusters that are sent down at a time: a slice of them. All are
-//! sent down at once where the lists of that room take no more than [`ROOM`] bytes.
+//! The list of a node has room for all clusters of a slice, which are sent down at a time. All clusters make
+//! one slice if the lists then take no more than [`ROOM`] bytes.
 
 use glam::UVec2;
 

@@ -1,5 +1,5 @@
-//! The mirrors as second and later rays meet them: those that are known exactly by their shapes, all
-//! others as triangles among those that are sent down the hierarchy.
+//! The mirrors as second and later rays meet them: shapes that are known exactly are intersected one by
+//! one, all others are triangles that are sent down the hierarchy with those of the objects.
 
 use crate::gpu::{Gpu, storage, storage_bytes};
 use crate::stage::Stage;

@@ -1,5 +1,5 @@
-//! Beams: the exact reflection on any mirror, without a hierarchy over the scene. The image-order end of
-//! swept boxes; related is Roger et al. 2007, who stream triangles down a hierarchy of cones.
+//! Beams: the exact reflection on any mirror, without a hierarchy over the scene. They are the image-order counterpart
+//! of swept boxes. Roger et al. 2007 is related: it streams triangles down a hierarchy of cones.
 //!
 //! Each frame a hierarchy of boxes is made over the reflected rays of the mirror pixels (pass
 //! `hierarchy`), and the triangles are put where they are now, in clusters of neighbours that were made
@@ -14,8 +14,8 @@
 //!
 //! With `bounces` mirrors are seen in mirrors: the hierarchy is built again over the second rays (`paths.rs`).
 //!
-//! Counted, over all rays of a path: a node test is one of a box of a cluster or a triangle against a node, an evaluation a test of
-//! a ray against a triangle.
+//! Work is counted over all rays of a path: a node test is one of a box of a cluster or a triangle against a node, an
+//! evaluation is a test of a ray against a triangle.
 
 mod clusters;
 pub mod embed;
@@ -94,7 +94,7 @@ struct Ready {
     seen: Seen,
 }
 
-/// What becomes of what rays meet.
+/// What is done with the hits of the rays.
 enum Seen {
     /// It is shown.
     First(Shade),

@@ -1,13 +1,13 @@
 //! More than one reflection: the rays of each pixel as images, what each ray meets, mirrors included,
 //! and the colour of what its path ends on (`beams/first.wesl`, `beams/bounce.wesl`, `beams/ends.wesl`).
 //!
-//! The hierarchy is built again over the second rays, and again over the third: rays of one tile then
-//! leave different mirrors, so that their boxes are larger, but what they meet is as exact. A ray follows
-//! the reference's rules. It does not meet the surface that it leaves: a sphere, an ellipsoid and a plane
-//! are left out, of a bowl, a saddle and a torus the start is, and so is the plane of a triangle in which
-//! it starts. Of surfaces equally far away a mirror's front is met first, then a mirror's back, then an
-//! object. A back ends the path in black, as does a mirror met by the last ray, and a mirror whose
-//! shading normal sends the next ray below its surface.
+//! The hierarchy is built again over the second rays, and again over the third. Rays of one tile then
+//! leave different mirrors, so that their boxes are larger, but their hits are just as exact. A ray
+//! follows the reference's rules. It does not meet the surface that it leaves: a sphere, an ellipsoid and
+//! a plane are skipped, a bowl, a saddle and a torus are skipped near the ray's start, and a triangle is
+//! skipped if the ray starts in its plane. Of surfaces equally far away a mirror's front is met first,
+//! then a mirror's back, then an object. A back ends the path in black, as does a mirror met by the last
+//! ray, and a mirror whose shading normal sends the next ray below its surface.
 
 use encase::ShaderType;
 

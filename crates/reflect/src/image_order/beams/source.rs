@@ -7,13 +7,13 @@ use crate::stage::Stage;
 pub(super) struct Source {
     /// Width and height of the image in pixels.
     pub(super) size: [u32; 2],
-    /// Of the kernels that read them.
+    /// Shader feature of the kernels that read the rays from there.
     pub(super) feature: Option<&'static str>,
     /// Group 0, where they read it.
     pub(super) view: Option<(wgpu::BindGroupLayout, wgpu::BindGroup)>,
     /// Group 1.
     pub(super) rays_layout: wgpu::BindGroupLayout,
-    /// Of the first ray of each path, of the second, of the third as of the first, …
+    /// By reflection: of the first ray of each path, of the second, of the third as of the first, …
     pub(super) rays: Vec<wgpu::BindGroup>,
 }
 

@@ -7,7 +7,7 @@ pub(super) struct Tally {
     pub cluster_tests: u64,
     /// Tests of a triangle's box against a node.
     pub triangle_tests: u64,
-    /// Of a leaf and a triangle that it may meet.
+    /// Pairs of a leaf and a triangle that it may meet.
     pub pairs: u64,
     /// Tests of a ray against a triangle.
     pub exact: u64,

@@ -17,9 +17,9 @@ pub(crate) const MORE: &[Slot] = &[Slot::Uniform, Slot::Textures, Slot::Textures
 /// Twin of `Trace` in `cubemap_trace/rays.wesl`.
 #[derive(Clone, Copy, Debug, ShaderType)]
 pub(crate) struct TraceUniform {
-    /// Of a ray, world units.
+    /// Length of a ray, world units.
     pub length: f32,
-    /// Share of a ray, or of the angle that it turns by.
+    /// Length of a step, as a share of a ray, or of the angle that it turns by.
     pub step: f32,
     /// Largest |Δ| that is a hit, world units (criterion `distance`).
     pub limit: f32,

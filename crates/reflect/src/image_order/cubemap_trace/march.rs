@@ -18,7 +18,7 @@ pub(crate) struct March {
     effort: Effort,
 }
 
-/// The pass `effort`: rays followed for what they take alone.
+/// The pass `effort`: follows the rays only to count their work.
 pub(crate) struct Effort(Pass);
 
 /// What options turn on in the shader.
@@ -80,7 +80,7 @@ impl March {
         (self.trace).record(frame, "trace", (stage, variant), groups, targets);
     }
 
-    /// Traces once more for what it took.
+    /// Traces once more, to count the work.
     pub(crate) fn record_effort(
         &self,
         frame: &mut Recorder<'_>,

@@ -1,11 +1,10 @@
 //! Where a mirror's cube maps are taken from (Číž 2017, section 3.8): from where the scene file says,
 //! or near its surface, far from each other, the most successful first.
 //!
-//! Without a place in the file, candidates are tried out: small maps are drawn from each, with the
-//! mirrors where the traced maps show them among the objects, and a small picture says for which mirror pixels the ray
-//! is resolved there with certainty (a sign change of Δ where the map is continuous). Then the maps
-//! are chosen greedily, each for the pixels that those before leave; `objects=auto` stops where the next one
-//! is not worth its cost.
+//! Without a place in the file, candidates are tried: small maps are drawn from each (with the mirrors, if the traced
+//! maps show them among the objects), and a small picture says for which mirror pixels such a map surely resolves the
+//! ray (a sign change of Δ where the map is continuous). Then the maps are chosen greedily, each for the pixels that
+//! those before leave; `objects=auto` stops where the next one is not worth its cost.
 
 use catoptric_scene::shape::Facing;
 use catoptric_scene::{Mesh, Mirror, Random, Scene};
@@ -74,7 +73,7 @@ pub(crate) fn places(
     Ok(chosen.collect())
 }
 
-/// Why the places in the scene file do not do.
+/// Why the places in the scene file are not enough.
 pub(crate) fn objection(options: &CubemapTrace, scene: &Scene) -> Option<String> {
     if options.placement != Placement::Scene {
         return None;

@@ -1,13 +1,11 @@
-//! The control: the reference's reflected rays, traced on the GPU in `f32` over the objects'
-//! triangles, not the mirrors (truth `first-bounce`). What it does not match of the reference is
-//! the harness's own noise; its time is what an application would pay instead of any other
-//! technique.
+//! The control: the reference's reflected rays, traced on the GPU in `f32` over the objects' triangles, not the mirrors
+//! (truth `first-bounce`). Its differences from the reference are the harness's own noise; its time is what an
+//! application would pay for ray tracing instead of any other technique.
 //!
-//! With `traversal=shader` a shader goes through obvhs's hierarchy, with `hardware` the driver's
-//! own structure is asked by ray queries. With `update=frame` either is built for each frame, as
-//! for a scene that deforms: obvhs's on the CPU before the frame, the driver's on the GPU in a pass
-//! `build`. With `update=refit` obvhs's is built once, and in each frame its boxes are fitted anew, on the
-//! GPU in a pass `refit`, whether something has moved or not.
+//! With `traversal=shader` a shader walks obvhs's hierarchy; with `hardware` ray queries walk the driver's own
+//! structure. With `update=frame` either is built for each frame, as for a scene that deforms: obvhs's on the CPU
+//! before the frame, the driver's on the GPU in a pass `build`. With `update=refit` obvhs's is built once, and in each
+//! frame its boxes are refitted on the GPU in a pass `refit`, whether something has moved or not.
 
 mod hardware;
 mod refit;

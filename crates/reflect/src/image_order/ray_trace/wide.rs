@@ -20,7 +20,7 @@ const STACK: usize = 48;
 /// Share of the scene's extent by which boxes grow at most: as much as f32 rounds.
 pub(super) const GROWTH: f32 = 1.0 / 4_194_304.0;
 
-/// A binary hierarchy of more levels is not folded, which takes a call a level.
+/// Most levels of a binary hierarchy that is folded, which takes a recursive call for each level.
 const DEEPEST: usize = 1000;
 
 /// Triangles of a leaf at most, as nodes have room for.

@@ -1,5 +1,5 @@
-//! `motion-newton`: Newton's method on the mirror of the frame before, started where the mirror's point was then, for
-//! the point that reflects what the pixel shows now. Ours.
+//! `motion-newton`: Newton's method on the mirror of the frame before, for the point that then reflected what the pixel
+//! shows now. It starts where the mirror's point was then. Ours.
 
 use catoptric_scene::Scene;
 

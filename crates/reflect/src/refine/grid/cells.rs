@@ -11,9 +11,9 @@ pub(crate) struct Cells {
     /// World-space corners of all occupied cells, each once; without those that no vertex of the
     /// mesh is interpolated from.
     pub vertices: Vec<DVec3>,
-    /// Indices into `vertices` of a cell's corners: corner `x + 2y + 4z` at local coordinates
-    /// `(x, y, z)`; in a flat grid both ends of an axis are the same vertex. For a corner that no
-    /// vertex of this cell needs stands one that is needed.
+    /// Indices into `vertices` of a cell's corners: corner `x + 2y + 4z` at local coordinates `(x, y, z)`;
+    /// in a flat grid both ends of an axis are the same vertex. A corner that no vertex of this cell needs
+    /// is replaced by one that is needed.
     pub cells: Vec<[u32; 8]>,
     /// For each vertex of the mesh, its cell and its local coordinates in [0, 1]³.
     pub places: Vec<(u32, Vec3)>,

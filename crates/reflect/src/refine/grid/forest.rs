@@ -35,7 +35,7 @@ impl Place {
 /// Twin of `Cell` in `grid/cells.wesl`.
 #[derive(Clone, Copy, Debug, PartialEq, ShaderType)]
 pub(super) struct Cell {
-    /// Coordinates in the parent of what has 0 here.
+    /// Coordinates, in the parent, of the corner of this cell that has 0 here.
     pub offset: Vec3,
     /// The cell that it is a part of, or [`NONE`].
     pub parent: u32,
@@ -56,7 +56,8 @@ pub(super) struct Cell {
 /// No cell, or no record.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// A cell that holds no more vertices than this has no corners: with its centre these are nine.
+/// A cell that holds no more vertices than this has no corners: eight corners and a centre would be nine points
+/// to search.
 const FEW: usize = 8;
 
 /// Most levels of cells: at the last one, each holds a 4096th of its mesh along an axis.

@@ -129,8 +129,8 @@ impl Grid {
 }
 
 impl Recipe for Grid {
-    /// A vertex that is reflected needs those of its cell's corners too that are not. Where there is
-    /// no cell, it is the search as asked for.
+    /// A reflected vertex also needs those corners of its cell that are not reflected. Where there is no
+    /// cell, the search is used as asked for.
     fn wants_continued(&self) -> bool {
         !self.is_bypassed()
     }

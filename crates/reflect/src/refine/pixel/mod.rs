@@ -1,11 +1,11 @@
 //! Tessellation by pixels: an edge is split while its image is off the true curve by more than so many
 //! pixels.
 //!
-//! Decided edge by edge, from what the triangles on both sides share, and the middle of an edge is one
-//! point for both of them: no crack can open. The triangles follow their edges by patterns. The edges of
-//! a scene are known by its connectivity alone ([`Topology`]); their parts are numbered as they are made,
-//! so that no look-up is needed. Buffers have room for what is drawn, whatever the level limit; a frame
-//! that wants more is made anew with more ([`Refine::outgrown`]).
+//! The decision is made edge by edge, from what the triangles on both sides share, and the middle of an
+//! edge is the same point for both: no crack can open. The edges' splits select a pattern for each
+//! triangle. The edges of a scene follow from its connectivity alone ([`Topology`]); their parts are
+//! numbered as they are made, so that no look-up is needed. Buffers have room for what is drawn, whatever
+//! the level limit; a frame that needs more is made anew with more ([`Refine::outgrown`]).
 
 mod kernels;
 mod passes;

@@ -1,11 +1,11 @@
 //! Tessellation of the reflected geometry (Szabo 2013, chapter 5; Szabo CESCG, section 4.2).
 //!
-//! A loop on the GPU, without read-back: judge the triangles being worked on, finish them or split
-//! them into four, search the new points, and again, until the level limit; then draw what is
-//! finished and what is left over. Only new points are searched, three a split triangle, where Alg. 3 of
-//! the CESCG paper searches all twelve corners of the four parts anew: the same answers. A scene is worked off in chunks of its triangles ([`Plan`]),
-//! each drawn before the next. Slots come from prefix sums, so that neither pictures nor counts
-//! depend on the order in which threads run.
+//! A loop on the GPU, without read-back: judge the triangles being worked on, finish them or split them into four,
+//! search the new points, and again, until the level limit; then draw the finished triangles and those left over. Only
+//! new points are searched, three a split triangle, where Alg. 3 of the CESCG paper searches all twelve corners of the
+//! four parts anew: the answers are the same. A scene is processed in chunks of its triangles ([`Plan`]), each drawn
+//! before the next. Slots come from prefix sums, so that neither pictures nor counts depend on the order in which
+//! threads run.
 
 mod buffers;
 pub(super) mod junctions;

@@ -1,6 +1,6 @@
-//! Newton's method on the G-buffer, between pixels: the field of tangential parts of the bisector
-//! is 0 at a reflection point, and its derivatives follow from those of position and normal.
-//! Sub-pixel answers from the same buffers that the published searches read.
+//! Newton's method on the G-buffer, at subpixel positions: the tangential part of the bisector is 0 at a
+//! reflection point, and its derivatives follow from those of position and normal. It reads the same
+//! buffers as the published searches.
 
 mod tiles;
 

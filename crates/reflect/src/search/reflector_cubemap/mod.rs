@@ -185,12 +185,12 @@ impl Sheets {
 impl Settings {
     /// For maps of a mirror of this centre.
     ///
-    /// Where normals point inwards, the surface whose normal is the bisector lies in the direction
-    /// against it. The field so turned has its sinks at the inverted images: in front of a point
-    /// beyond the focus the bisector turns less along the mirror than the normal, in front of a
-    /// nearer one more, so that each step leads away from the upright image, and leads there if the
-    /// field is taken with the other sign. Between the foci of a beam it turns less in one direction
-    /// and more in the other: to such a point no walk leads.
+    /// Where normals point inwards, the surface point whose normal is the bisector lies opposite to the
+    /// bisector's direction, so the field is reversed. The reversed field has its sinks at the inverted
+    /// images. For a point beyond the focus the bisector turns less along the mirror than the normal does;
+    /// for a nearer point it turns more, so that each step leads away from the upright image, or towards
+    /// it if the sign of the field is changed. Between the foci of a beam the bisector turns less in one
+    /// direction and more in the other: no walk leads to such a point.
     fn new(options: &ReflectorCubemap, maps: &Maps, center: DVec3, image: Image) -> Self {
         let facing = maps.facing;
         Self {

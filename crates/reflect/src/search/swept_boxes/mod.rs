@@ -3,12 +3,12 @@
 //!
 //! Positions and directions are interpolated inside a cell from its corners, so that each point of a
 //! reflected ray lies in the box of the corners' rays, swept along the directions. Neighbouring cells share
-//! corners: there are no holes, and what the search does not find the interpolated mirror does not
-//! reflect. Solutions are told apart by the number of focal points of the beam before the vertex; each
-//! number is a sheet. Triangles are drawn from both sides, so that those between two focal points, which
-//! are turned over, need no care.
+//! corners, so there are no holes: a reflection that the search does not find is not in the interpolated
+//! mirror. Solutions are told apart by the number of focal points of the beam before the vertex; each number
+//! is a sheet. Triangles are drawn from both sides, so that those between two focal points, which are turned
+//! over, need no special treatment.
 //!
-//! Counted: a step and an evaluation are a cell that is looked into, a node test a box.
+//! Work is counted thus: a step and an evaluation are a cell that is searched, a node test is a box.
 
 mod nodes;
 #[cfg(test)]

@@ -18,8 +18,8 @@ const MOST: u32 = 8;
 const BASE: u32 = 3;
 const ROW: u32 = 4;
 
-/// Levels above a previous answer at which a warm search begins: there are so many. Twin of `NEARBY` in
-/// `swept_boxes/search.wesl`.
+/// A warm search begins this many levels above a previous answer, so a hierarchy has at least as many. Twin
+/// of `NEARBY` in `swept_boxes/search.wesl`.
 const NEARBY: u32 = 3;
 
 /// Twin of `Layout` in `swept_boxes/build.wesl`.

@@ -68,7 +68,8 @@ fn is_of_the_input(cause: &(dyn Error + 'static)) -> bool {
     }
 }
 
-/// Whether a file cannot be read or written for what its path names; not for a full disk, say.
+/// Whether a file cannot be read or written because of what its path names, not because of, say, a
+/// full disk.
 fn is_of_the_path(kind: io::ErrorKind) -> bool {
     matches!(
         kind,

@@ -43,7 +43,7 @@ pub fn json(path: &Path) -> anyhow::Result<Value> {
     })
 }
 
-/// A value for messages: itself where it is short, else what it is.
+/// A value for messages: the value itself if it is short, otherwise what kind of value it is.
 pub fn brief(value: &Value) -> String {
     const LONGEST: usize = 40;
     match value {

@@ -1,20 +1,20 @@
 //! How exact, how fast and how steady is a real-time reflection on a curved mirror?
 //!
-//! The whole reads as one sentence, [`run::measure()`]: load a scene, trace its reference, render it
-//! by every technique, compare, time, record.
+//! The whole program is one pipeline, [`run::measure()`]: load a scene, trace its reference, render
+//! it by every technique, compare, time, record.
 //!
-//! The rooms, from the bottom up; a room knows only those before it:
+//! The modules, from the bottom up; a module uses only those before it:
 //!
-//! - [`terminal`], [`exit`](mod@exit), [`options`], [`input`], [`output`]: what is said, how the program
-//!   ends, what it is asked, reads and writes;
-//! - [`record`]: what was measured, its file and its schema, what is asked of its numbers;
-//! - [`show`] makes tables, plots, sentences, pages and pictures of records and frames, and
-//!   [`run`] makes the records; neither knows the other;
+//! - [`terminal`], [`exit`](mod@exit), [`options`], [`input`], [`output`]: text for the terminal,
+//!   exit codes, common options, reading and writing of files;
+//! - [`record`]: what was measured, its file and its schema, gates and comparisons of its numbers;
+//! - [`show`] makes tables, plots, sentences, pages and pictures of records and frames, and [`run`]
+//!   makes the records; neither uses the other;
 //! - [`suites`]: the sweeps behind the papers' figures and the report: what to measure, and the
 //!   claims that read the outcome;
-//! - [`check`] holds the reference against another renderer's pictures, [`export`](mod@export)
+//! - [`check`] compares the reference with another renderer's pictures, [`export`](mod@export)
 //!   writes scenes for one, [`import`] takes over scenes from elsewhere;
-//! - [`cli`]: the command line, a file a verb.
+//! - [`cli`]: the command line, one file per command.
 
 pub mod check;
 pub mod cli;

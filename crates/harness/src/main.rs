@@ -9,9 +9,9 @@ fn main() -> ExitCode {
     catoptric::cli::main()
 }
 
-/// Vulkan drivers on Linux ask for Wayland although nothing is to be shown, and its library writes a
-/// line on stderr each time where `XDG_RUNTIME_DIR` is no absolute path. So it gets one: a folder where no
-/// Wayland socket is.
+/// Vulkan drivers on Linux ask for Wayland although nothing is to be shown. Wayland's library then writes
+/// a line to stderr each time if `XDG_RUNTIME_DIR` is no absolute path. So the variable is set to a folder
+/// in which there is no Wayland socket.
 #[cfg(all(unix, not(target_vendor = "apple")))]
 fn hush_wayland() {
     const FOLDER: &str = "XDG_RUNTIME_DIR";

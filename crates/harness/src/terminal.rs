@@ -3,7 +3,8 @@
 use std::borrow::Cow;
 use std::io::Write;
 
-/// Writes a line, or several, to stderr. Where nobody can read it, it is lost: no reason to end.
+/// Writes a line, or several, to stderr. If stderr is closed, the text is lost and the program goes
+/// on.
 pub fn say(text: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{}", plain(text));
 }
@@ -30,7 +31,7 @@ pub fn width() -> usize {
     })
 }
 
-/// Text in lines of at most `columns` characters, but for words that are longer.
+/// Text in lines of at most `columns` characters, except for longer words.
 pub fn wrapped(text: &str, columns: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
@@ -73,7 +74,7 @@ fn replaced(text: &str, odd: impl Fn(char) -> bool) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
-/// Whether a character does something else than to be shown: control characters, and those that
+/// Whether a character does something other than being shown: control characters, and those that
 /// turn the direction of what follows.
 fn commands(c: char) -> bool {
     c.is_control()

@@ -3,9 +3,10 @@
 use catoptric_frame::Image;
 use glam::Vec3;
 
-/// How far each colour lies beyond those that it may be: for one ray a pixel, between the least and
-/// the greatest of our pixel and its neighbours; for `side` × `side` rays, as far from ours as one
-/// of them can make it. NaN for a colour that is not a number.
+/// How far each colour lies outside the range that is allowed. For one ray a pixel, the range goes
+/// from the least to the greatest of our pixel and its neighbours; for `side` × `side` rays, a
+/// colour may differ from ours by as much as one of the rays can change it. NaN for a colour that
+/// is not a number.
 pub fn beyond(theirs: &Image<Vec3>, ours: &Image<Vec3>, side: u32) -> Image<f32> {
     let [width, _] = theirs.size();
     let ray = largest(theirs).max(largest(ours)) / (side * side) as f32;

@@ -35,8 +35,8 @@ pub struct Layer {
 }
 
 impl Layer {
-    /// A layer of ids, codes or counts. Compared nowhere, it keeps its limit: where that is wrong,
-    /// the layers that choose the pixels fall short.
+    /// A layer of ids, codes or counts. If no pixel is compared, it passes: where that is wrong, the
+    /// layers that select the pixels fail.
     pub fn agreement<T: PartialEq>(
         layer: &'static str,
         mask: &[bool],
@@ -181,8 +181,8 @@ fn share(agreeing: usize, pixels: usize) -> Option<f64> {
     (pixels > 0).then(|| agreeing as f64 / pixels as f64)
 }
 
-/// Whether half of the pixels keep a limit, as far as so many can tell: if each does as often as not,
-/// one in forty times more than √n beyond half of them do not.
+/// Whether half of the pixels keep a limit, within what chance allows: if each pixel keeps it with
+/// probability ½, the number that do not exceeds half by more than √n only once in forty times.
 fn half(keeping: usize, pixels: usize) -> bool {
     let (off, pixels) = ((pixels - keeping) as f64, pixels as f64);
     off <= pixels / 2.0 + pixels.sqrt()

@@ -1,27 +1,27 @@
 //! How closely two renderers must agree, and why.
 //!
-//! Mitsuba 3 traces in float32, in every variant, and moves each reflected ray off the surface
-//! by (1 + the largest coordinate) · 1500 · 2⁻²⁴, some 3e-4 in a scene a few units wide; ours
-//! are exact to f64. Both grow with the distance from the origin, and so do the limits of lengths:
-//! they are stated for mirrors whose points have coordinates up to [`REACH`], and larger in
-//! proportion beyond. A point that is off by a length has a normal that is off by an angle, the larger
-//! the more the mirror is curved: so much are the limits of normals and directions wider.
+//! Mitsuba 3 traces in float32, in every variant, and moves each reflected ray off the surface by (1 +
+//! the largest coordinate) · 1500 · 2⁻²⁴, some 3e-4 in a scene a few units wide; ours are exact to
+//! f64. Both grow with the distance from the origin, and so do the limits of lengths: they are stated
+//! for mirrors whose points have coordinates up to [`REACH`], and larger in proportion beyond. An
+//! error of a point's position turns the normal there by an angle that grows with the mirror's
+//! curvature; the limits of normals and directions are widened by this angle.
 
 use catoptric_reference::RayStart;
 
-/// 1 + the largest coordinate of a mirror's point, up to which the limits of lengths hold as they
-/// are. Beyond, they are multiplied by what the median point has more.
+/// 1 + the largest coordinate of a mirror's point, up to which the limits of lengths hold as they are.
+/// If the median point has more, they are multiplied by its value over this one.
 pub const REACH: f64 = 3.0;
 
-/// Least share of pixels that see the same thing. What is left is for pixel centres that lie within
-/// f32's resolution, or the offset, of an edge: none to 3 of 10 000 mirror pixels were seen.
+/// Least share of pixels that see the same thing. The rest is for pixel centres that lie within f32's
+/// resolution, or Mitsuba's offset, of an edge: none to 3 of 10 000 mirror pixels were measured.
 pub const AGREE: f64 = 0.9995;
 
 /// Least share of pixels whose first reflected ray sees the same thing, with lengths `scale` times
-/// those of [`REACH`]. Mitsuba's offset is the wider the further the scene reaches, and so is the
-/// band along edges in which it decides what a ray from the surface does not: 9 of 10 000 mirror
-/// pixels in the Sponza, none with that offset. In a scene that is larger in all its parts edges
-/// are no denser, so that the share has an end, 99.8 %.
+/// those of [`REACH`]. The further the scene reaches, the larger is Mitsuba's offset, and the wider is
+/// the band along edges in which the offset changes what a ray sees: 9 of 10 000 mirror pixels in the
+/// Sponza, and none if our rays start with that offset. In a scene that is larger in all its parts
+/// edges are no denser, so the share never falls below 99.8 %.
 pub fn agree_once(start: RayStart, scale: f64) -> f64 {
     match start {
         RayStart::Exact => 1.0 - (1.0 - AGREE) * scale.min(4.0),
@@ -40,8 +40,8 @@ pub const ROUNDINGS: Distance = Distance {
     p999: 20.0,
 };
 
-/// As many pixels may always disagree, or be further off than the 99.9th percentile may: that is
-/// the share above of a small mirror.
+/// This many pixels may always disagree, or exceed the limit of the 99.9th percentile. On a small
+/// mirror this takes the place of the shares above.
 pub const ALWAYS: usize = 2;
 
 /// Least share that agrees of ids and colours after two reflections and more, where differences are
@@ -57,9 +57,9 @@ pub fn agree_deep(start: RayStart) -> f64 {
 /// How colours must agree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Color {
-    /// A colour agrees that lies, give or take this, between those of our pixel and its eight
-    /// neighbours: Mitsuba's offset moves what a pixel sees by a small part of a pixel, so where an
-    /// edge passes the pixel has the colour of a neighbour.
+    /// A colour agrees if it lies, within this tolerance, between the colours of our pixel and its
+    /// eight neighbours. Mitsuba's offset moves what a pixel sees by a small part of a pixel, so where
+    /// an edge passes the pixel may have the colour of a neighbour.
     pub within: f64,
     /// Least share of pixels that agree after one reflection.
     pub agree: f64,
@@ -86,12 +86,12 @@ pub fn color(start: RayStart) -> Color {
 /// few (6 of 1000 pixels of the worst one), a wrong colour is everywhere.
 pub const AGREE_SURFACE: f64 = 0.95;
 
-/// Surfaces that fewer pixels show are not asked: they may be all edge.
+/// Surfaces that fewer pixels show are not judged: all of these pixels may lie on edges.
 pub const FEWEST: usize = 8;
 
-/// What a second reflection may magnify the differences before it by: off a sphere,
-/// rays part 2 L / (r cos θ) times faster. In the median 7 to 12 was measured between mirror balls
-/// and in a bowl, 22 on a teapot with its tight curves; at the 99.9th percentile 33 in a room.
+/// How much a second reflection may magnify the differences before it: off a sphere, rays diverge 2 L
+/// / (r cos θ) times faster. Measured in the median: 7 to 12 between mirror balls and in a bowl, 22 on
+/// a teapot with its tight curves; at the 99.9th percentile 33 in a room.
 pub const MAGNIFICATION: f64 = 40.0;
 
 /// Distances that half and all but a thousandth of the pixels must keep.
@@ -112,7 +112,8 @@ impl Distance {
         }
     }
 
-    /// Both further by the angle that a normal turns by as often as coordinates are rounded.
+    /// Both widened by [`ROUNDINGS`] times the angle `turn` by which one rounding of coordinates turns
+    /// a normal.
     pub fn turned(self, turn: f64) -> Self {
         Self {
             p50: self.p50 + ROUNDINGS.p50 * turn,

@@ -206,10 +206,10 @@ fn far(a: Vec3, b: Vec3) -> f32 {
     a.as_dvec3().distance(b.as_dvec3()) as f32
 }
 
-/// By what angle, in radians, the normals of the mirrors turn where their points move by what a
-/// 32-bit float can tell of a coordinate: how far that is, times how strongly the mirror is curved
-/// there, from pixel to pixel. In the median over the pixels within a mask, as far as it is more than on
-/// a mirror of radius 1 that reaches to [`limits::REACH`]; 0 where there are no pixels.
+/// The angle, in radians, by which the mirrors' normals turn if their points move by the rounding of a
+/// 32-bit coordinate: the length of that rounding times the mirror's curvature there, from pixel to
+/// pixel. The median over the pixels within a mask, less the same on a mirror of radius 1 that reaches
+/// to [`limits::REACH`], and at least 0; 0 where there are no pixels.
 fn turn(primary: &Primary, mask: &[bool]) -> f64 {
     let [width, height] = primary.id.size();
     let kept = |x: u32, y: u32| mask[(y * width + x) as usize];

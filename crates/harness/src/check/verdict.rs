@@ -39,7 +39,8 @@ impl Verdict<'_> {
     }
 }
 
-/// Of the truths that a picture may show, the first that fits, else the one it is nearest to.
+/// The verdict for the first of the picture's possible truths that fits, or else for the nearest
+/// one.
 pub fn verdict(case: &Case, start: RayStart) -> anyhow::Result<Verdict<'_>> {
     let mut best: Option<Verdict<'_>> = None;
     for truth in &case.truths {

@@ -1,4 +1,4 @@
-//! The command line: a file a verb, and what each is told.
+//! The command line: one file per command, and the options of each.
 
 mod args;
 mod bench;

@@ -1,4 +1,4 @@
-//! Puts made text into a text by hand, such as the README, between two comments.
+//! Puts generated text into a hand-written one, such as the README, between two comments.
 
 use std::path::Path;
 

@@ -1,5 +1,5 @@
-//! Options that every command understands, and some cannot use: left out of its help, and refused
-//! rather than ignored.
+//! Common options that a command cannot use: they are left out of its help, and refused rather than
+//! ignored.
 
 use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches, CommandFactory};

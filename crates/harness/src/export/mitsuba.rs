@@ -1,7 +1,7 @@
 //! A scene for Mitsuba 3: `scene.xml`, meshes and textures beside it, and `scene.json`, which
 //! says which shape belongs to which of our ids.
 //!
-//! How ours is said in Mitsuba's terms:
+//! How a scene of ours is expressed in Mitsuba's terms:
 //! - An unlit surface is an area emitter whose radiance is its colour, with a BSDF that reflects
 //!   nothing. Emitters are black from behind: see `sides.rs`.
 //! - A mirror is a `conductor` of material `none`; it is black from behind like ours.
@@ -40,7 +40,8 @@ const NEAR: f64 = 1e-3;
 /// Far clipping plane, likewise.
 const FAR: f64 = 1e5;
 
-/// Writes a scene, its meshes and textures, all of them at once: an earlier export stands until then.
+/// Writes a scene, its meshes and textures, all of them at once: an earlier export is kept until
+/// then.
 ///
 /// # Errors
 /// The folder cannot be written into.

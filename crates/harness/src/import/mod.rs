@@ -1,8 +1,8 @@
 //! Scenes from elsewhere: glTF 2, Mitsuba 3's XML and PBRT's files, as a folder with a scene file of ours,
 //! its meshes and textures.
 //!
-//! What cannot be said in our terms is left out and listed. A mirror is what a name is given for, or
-//! what is made of a smooth metal or of glass.
+//! What our scene files cannot express is left out and listed. A surface is a mirror if a name is given
+//! for it, or if it is made of a smooth metal or of glass.
 
 mod cameras;
 mod colors;

@@ -28,7 +28,7 @@ const TEXTURES: &str = "textures";
 /// Picture size where a file says none.
 const RESOLUTION: [u32; 2] = [640, 480];
 
-/// Writes everything at once: an earlier import stands until then. The answer is the path of
+/// Writes everything at once: an earlier import is kept until then. The answer is the path of
 /// `scene.toml`, and what could not be written as it is.
 ///
 /// # Errors

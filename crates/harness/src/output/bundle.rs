@@ -7,7 +7,7 @@ use catoptric_frame::{create_folders, write_together};
 
 use super::unwritable;
 
-/// Files of a folder, made before any of them is written, so that what was there before stands until
+/// Files of a folder, all made before any of them is written, so that earlier files are kept until
 /// then. The last one takes its place last.
 #[derive(Debug, Default)]
 pub struct Bundle {

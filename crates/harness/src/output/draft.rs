@@ -1,4 +1,5 @@
-//! A page and the files that it shows, made so that an earlier page stands until the new one can.
+//! A page and the files that it shows, written so that an earlier page stays whole until the new one
+//! can replace it.
 //!
 //! The files of a run lie in folders of its own: `pictures` and `figures` or, where there are such
 //! already, `pictures-2` and `figures-2`, and so on. `index.html` and `record.json` are replaced
@@ -28,7 +29,7 @@ pub const FIGURES: &str = "figures";
 const PAGE: &str = "index.html";
 /// What it is made from.
 const RECORD: &str = "record.json";
-/// Every page of ours has it, and hardly one by anybody else.
+/// Text that every page of ours has, and hardly any other page.
 const OURS: &str = "<title>catoptric: ";
 /// In each folder of ours: the files in it that are ours, a path a line. Locked while a run writes.
 const LIST: &str = ".catoptric-files";

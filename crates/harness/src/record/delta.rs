@@ -1,8 +1,8 @@
 //! Two runs side by side: which rows appeared, vanished, got better or worse, and which of their times
 //! differ.
 //!
-//! Errors and work counters repeat from run to run, so any change of theirs is one. Times do not: a
-//! difference is called one only where its interval excludes zero.
+//! Errors and work counters repeat exactly from run to run, so each of their changes is reported.
+//! Times do not: a difference is reported only if its interval excludes zero.
 
 use catoptric_metrics::Timing;
 use serde_json::Value;
@@ -143,7 +143,7 @@ fn differences(then: &Value, now: &Value) -> (Option<String>, Vec<What>) {
     (None, moved.collect())
 }
 
-/// A difference below this share of the earlier time is not worth a word.
+/// A difference below this share of the earlier time is not reported.
 const LEAST_SHARE: f64 = 0.05;
 
 /// The difference of a row's times, where its interval excludes zero.
@@ -174,8 +174,8 @@ struct Median {
     median: f64,
     low: f64,
     high: f64,
-    /// Between the medians of the first and the second half of the samples: what is slower than a
-    /// frame, such as other work on the machine, is not in the interval.
+    /// Difference between the medians of the first and the second half of the samples. What disturbs
+    /// longer than a frame, such as other work on the machine, does not show in the interval.
     drift: f64,
 }
 

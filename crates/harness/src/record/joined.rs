@@ -105,8 +105,9 @@ impl Part {
 /// Most parts that are looked for.
 const MOST_PARTS: u64 = 10_000;
 
-/// Parts of which each adapter has no row though it has some of others. A part of more than there are
-/// scenes has none, and its record does not say which it is of: so many `empty` records were read.
+/// Parts of which an adapter has no row though it has rows of other parts. If there are more parts
+/// than scenes, some parts have no rows, and their records do not say which part they are: `empty`
+/// such records were read.
 fn missing(rows: &[Value], adapters: &[String], mut empty: usize) -> Vec<String> {
     let mut said = Vec::new();
     for name in adapters {

@@ -51,7 +51,7 @@ impl Unit {
         }
     }
 
-    /// How often its value is shown in a table: a share in per cent.
+    /// The factor by which its value is multiplied in a table: a share is shown in per cent.
     pub fn factor(self) -> f64 {
         match self {
             Self::Share => 100.0,

@@ -1,6 +1,6 @@
 //! What was measured: rows, their file, their schema, and what is asked of their numbers.
 //!
-//! The bottom of the house: nothing here knows how a number is measured or shown.
+//! The lowest layer of the program: nothing here knows how a number is measured or shown.
 
 pub mod against;
 pub mod delta;

@@ -7,8 +7,8 @@ pub fn lookup<'v>(row: &'v Value, path: &str) -> Option<&'v Value> {
     path.split('.').try_fold(row, |value, name| value.get(name))
 }
 
-/// The number at a path. What is null only since nothing could be better (the signal-to-noise ratio
-/// of equal pictures, which `equal` beside it says) is infinity.
+/// The number at a path. The signal-to-noise ratio of equal pictures, which is null in the record
+/// with `equal` beside it, is read as infinity.
 pub fn number(row: &Value, path: &str) -> Option<f64> {
     let value = lookup(row, path)?;
     let beside = path

@@ -1,4 +1,4 @@
-//! The one table of metrics: a row a number, or a row a family of numbers that have the same members
+//! The one table of metrics: one row per number, or per family of numbers that have the same members
 //! in several places. Tables, pages, plots, `--against`, `--require`, CSV and the schema read it.
 
 use super::metric::Better::{High, Low, Neither};
@@ -365,8 +365,8 @@ impl Row {
         }
     }
 
-    /// A member at the family's place. It has the family's unit and direction unless the family has
-    /// none of its own, or it counts.
+    /// A member at the family's place. It has the family's unit and direction, unless the family has
+    /// no unit or the member is a count.
     fn of(&self, family: &Self, judged: bool) -> Metric {
         let own = family.unit == Plain || self.unit == Count;
         let heading = format!("{} {}", family.heading, self.heading);

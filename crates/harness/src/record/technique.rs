@@ -1,4 +1,4 @@
-//! What a technique is like, of which a record holds the name alone.
+//! Properties of the technique that a record names: the record itself holds only the name.
 
 use catoptric_reflect::{Properties, Spec};
 

@@ -9,7 +9,7 @@ use super::progress::Progress;
 /// Set by the first signal: what is finished is kept, what is not begun is left out.
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
-/// Who says that a signal was heard; set while there is something finished to keep.
+/// Prints that a signal was received; set while there is something finished to keep.
 static SPEAKER: OnceLock<Progress> = OnceLock::new();
 
 /// The exit code of a program that was told to end: that of Ctrl-C, as shells have it.

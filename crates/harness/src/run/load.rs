@@ -7,8 +7,8 @@ use catoptric_scene::{LoadOptions, Scene, SceneError, builtin};
 use crate::exit::{bad_input, warn};
 use crate::options::Common;
 
-/// Loads a scene. A built-in one whose model is missing is no error but has nothing to show, with a
-/// reason; anything else that is wrong is the user's to mend.
+/// Loads a scene. A built-in one whose model is missing is no error: the inner result then has the
+/// reason. Anything else that is wrong is an error of the user's input.
 pub fn load(name: &str, options: &LoadOptions) -> anyhow::Result<Result<Scene, String>> {
     match catoptric_scene::open(name, options) {
         Ok(scene) => {

@@ -1,4 +1,4 @@
-//! The whole sentence: load → trace the reference → render → compare → time → record.
+//! The whole pipeline: load → trace the reference → render → compare → time → record.
 
 use catoptric_reflect::Gpu;
 use catoptric_scene::Scene;
@@ -28,8 +28,8 @@ pub struct Measured<'a, 'g> {
     pub rows: &'a [Record],
 }
 
-/// So many techniques at most stand ready at once and are timed in turn: all of them would need
-/// the memory of all.
+/// Most techniques that are ready at once and timed in turn: all of them together would need too
+/// much memory.
 const IN_TURN: usize = 8;
 
 /// Why a row has no `temporal` though frames were asked for.

@@ -1,10 +1,9 @@
 //! `--frames N`: techniques followed over the frames of a scene's motion.
 //!
-//! Frame 0 is the scene as written. Each technique walks through the frames twice: once with all
-//! layers, where its picture is judged by the reference of that frame and each vertex' error (found −
-//! true, in pixels) is followed from frame to frame, and once as an application would draw, to be
-//! timed, between as many frames at rest. Where something is carried from one frame to the next
-//! (`start=previous`), it is so in both.
+//! Frame 0 is the scene as written. Each technique goes through the frames twice. Once it renders all layers: its
+//! picture is judged by the reference of that frame, and each vertex' error (found − true, in pixels) is followed from
+//! frame to frame. Once it draws as an application would, to be timed, alternating with as many frames at rest. Where
+//! something is carried from one frame to the next (`start=previous`), it is carried both times.
 
 use catoptric_frame::{Frame, TrueVertex};
 use catoptric_metrics::{
@@ -43,9 +42,9 @@ struct Seen {
     node_tests: Option<f64>,
 }
 
-/// Follows techniques over `frames` frames of the scene's motion, but those that estimate it, all of them through a frame
-/// before the next, so that each frame's truth is found once. An interrupt ends the sequence early.
-/// `begin` is called before each frame.
+/// Follows techniques, except estimators of motion, over `frames` frames of the scene's motion. All of them render a
+/// frame before any renders the next, so that each frame's truth is computed only once. An interrupt ends the sequence
+/// early. `begin` is called before each frame.
 ///
 /// # Errors
 /// A scene that cannot be traced. What breaks in one technique breaks its row alone.

@@ -51,7 +51,7 @@ impl Progress {
         self.steps(1);
     }
 
-    /// So many steps are finished, or need not be gone.
+    /// So many steps are finished, or not needed.
     pub fn steps(&self, steps: usize) {
         self.bar.inc(steps as u64);
     }
@@ -64,7 +64,7 @@ impl Progress {
             .saturating_sub(self.bar.position())
     }
 
-    /// A remark that outlives the bar.
+    /// A remark that stays on the screen when the bar is gone.
     pub fn remark(&self, text: &str) {
         if !self.quiet {
             self.bar.suspend(|| say(text));

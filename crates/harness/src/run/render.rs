@@ -61,8 +61,8 @@ impl Rendered<'_> {
 /// Why a row has no numbers: its status and a reason.
 pub type RowError = (Status, String);
 
-/// Prepares a technique and renders one frame with all layers: the first one, or the second where
-/// a frame helps to find the next, as the timed ones are.
+/// Prepares a technique and renders one frame with all layers: the first one, or, if a technique starts
+/// from the frame before, the second, as when it is timed.
 pub fn render<'g>(gpu: &'g Gpu, spec: &Spec, scene: &Scene) -> Result<Rendered<'g>, RowError> {
     if let Support::No(reason) = catoptric_reflect::supports(spec, scene) {
         return Err((Status::NotApplicable, reason));

@@ -18,7 +18,7 @@ const FEWEST: usize = catoptric_metrics::stats::FEWEST_FOR_INTERVAL;
 /// Never more samples, whatever the budget.
 const MOST: usize = 200;
 
-/// Share of the frame by which the passes may miss it.
+/// Share of the frame's time by which the sum of its passes may differ from it.
 const PASSES_MISS_FRAME: f64 = 0.1;
 
 /// All samples of one technique, in the order in which they were taken.

@@ -21,7 +21,7 @@ use super::{fill, provenance};
 pub struct Wanted {
     /// Built-in name or scene file.
     pub scene: String,
-    /// Picture size; the command line's goes before it, the scene's own comes after it.
+    /// Picture size; the command line's overrides it, and it overrides the scene's own.
     pub resolution: Option<[u32; 2]>,
     /// Names of techniques, in the order of the rows.
     pub techniques: Vec<String>,

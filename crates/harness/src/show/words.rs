@@ -253,8 +253,8 @@ pub fn time_difference(a: &Record, b: &Record) -> Option<String> {
     })
 }
 
-/// What the control does not match: less than that, a difference between a technique and the
-/// truth says nothing. `None` where the control was not measured.
+/// The control's own error: a smaller difference between a technique and the truth says nothing.
+/// `None` where the control was not measured.
 pub fn noise_floor(rows: &[Record]) -> Option<String> {
     let is_control = |row: &&Record| technique::properties(&row.technique).is_control;
     let control = || rows.iter().filter(is_control);

@@ -1,5 +1,5 @@
-//! Tables with coloured cells: of a figure with few places or with names along its axis, what plots
-//! would show less well.
+//! Tables with coloured cells, for figures with few places or with names along their axis, which
+//! plots would show less well.
 
 use crate::record::metric::{Better, Unit};
 use crate::record::metrics;

@@ -1,9 +1,9 @@
-//! `catoptric bench control`: what the harness itself is worth. The control traces the reference's
-//! rays on the GPU; what is left between the two is the floor under every other number. Drawn from
-//! triangles, a mirror is not the reference's any more: how far, and how the gap closes. In 32 bits
-//! the published search cannot tell neighbouring pixels apart: from which zoom on. And what the
-//! alternative to all techniques costs: its hierarchy, built once or for every frame, gone through
-//! by a shader or by ray queries in hardware.
+//! `catoptric bench control`: the errors of the harness itself. The control traces the reference's
+//! rays on the GPU; the difference that is left is the floor under every other number. A mirror
+//! drawn from triangles differs from the reference's: by how much, and how does the gap close with
+//! more triangles? In 32 bits the published search cannot tell neighbouring pixels apart: from
+//! which zoom on? And what does the alternative to all techniques cost: its hierarchy, built once
+//! or for every frame, traversed by a shader or by ray queries in hardware?
 
 use crate::show::plot::Axis;
 use crate::suites::claims::make::{claim, grows, ratio, value};

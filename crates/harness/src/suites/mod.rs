@@ -2,11 +2,11 @@
 //! the report.
 //!
 //! A suite is data. It lists [`Figure`]s; a figure lists [`Series`], and each [`Point`] of a series
-//! names a scene and a technique and says where on the figure's axis the pair stands. From all
-//! figures together the program makes one plan without doubles, measures it with the same sentence
-//! as `compare` (so a point is a full record: accuracy, work, triangles, times), and draws every
-//! [`Quantity`] of a figure, any number in a record, against its axis. Nothing is measured by a
-//! suite itself.
+//! names a scene and a technique and says where on the figure's axis the pair stands. From all figures
+//! together the program makes one plan without duplicates, measures it with the same pipeline as
+//! `compare` (so a point is a full record: accuracy, work, triangles, times), and draws every
+//! [`Quantity`] of a figure, any number in a record, against its axis. Nothing is measured by a suite
+//! itself.
 //!
 //! # Adding a suite
 //!

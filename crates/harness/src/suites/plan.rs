@@ -9,11 +9,12 @@ use super::figure::Figure;
 use super::series::Point;
 use super::suite::Budget;
 
-/// All points of all figures without doubles, by scene and size in order of appearance. Of a
-/// timing in all, each scene's part is that of its techniques among all.
+/// All points of all figures without duplicates, by scene and size in order of appearance. If the
+/// timing is one sum for all scenes, each scene gets a part in proportion to its number of
+/// techniques.
 ///
-/// Only so many techniques are timed in turn: of a figure first the first points of all its series,
-/// then the second ones, so that the same drift meets those that a figure compares.
+/// Only so many techniques are timed in turn. So the first points of all series of a figure come
+/// first, then the second ones: the points that a figure compares then see the same drift.
 pub fn wanted(figures: &[Figure], timing: Budget) -> Vec<Wanted> {
     let mut jobs: Vec<Wanted> = Vec::new();
     let ranked = figures.iter().flat_map(|figure| {

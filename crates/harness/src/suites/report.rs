@@ -73,8 +73,8 @@ const TECHNIQUES: [&str; 6] = [
     shelf::CONTROL.1,
 ];
 
-/// Techniques on the scenes that show best what they are about: all of them on all scenes would take
-/// the quick suite too long. They stand behind `linear`.
+/// Techniques on the scenes that show best what they are about: all of them on all scenes would take the
+/// quick suite too long. They come after `linear`.
 const FEATURED: [(&str, &[&str]); 5] = [
     // Few large triangles, and coarse models beside fine ones.
     ("linear+full(level=3)", &["sphere-square"]),

@@ -26,7 +26,7 @@ pub const CUBEMAP: (&str, &str) = (
     "cubemap trace",
     "cubemap-trace(sampling=texel,pyramid=sound)",
 );
-/// The reference's own rays, traced on the graphics adapter: what all are held against.
+/// The reference's own rays, traced on the graphics adapter: what all others are compared with.
 pub const CONTROL: (&str, &str) = ("ray trace (control)", "ray-trace");
 /// Triangles sent down a hierarchy over the rays: exact, without a hierarchy over the scene.
 pub const BEAMS: (&str, &str) = ("beams", "beams");

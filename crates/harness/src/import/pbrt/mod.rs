@@ -1,7 +1,7 @@
 //! PBRT's scene files, version 4 and what version 3 has in common with it.
 //!
-//! Their space is left-handed, and so is the picture: what a file shows comes mirrored, left to right,
-//! unless the file itself turns it. Positions are as the file has them.
+//! PBRT's space is left-handed. Positions are kept as the file has them, so the picture is mirrored,
+//! left to right, unless the file itself flips it.
 
 mod lexer;
 mod materials;

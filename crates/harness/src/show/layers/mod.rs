@@ -51,8 +51,8 @@ const COLOR: Code = Code::Linear {
     step: 1.0 / 2048.0,
     bytes: 2,
 };
-/// Angles, in degrees. What is below 2⁻¹³° (a thousandth of a usual pixel) is float32's noise, which would
-/// fill half of the file of an exact technique: 0.
+/// Angles, in degrees. Angles below 2⁻¹³° (a thousandth of a usual pixel) are float32's noise and written
+/// as 0: otherwise they would fill half of the file of an exact technique.
 const ANGLE: Code = Code::Octaves {
     from: -13.0,
     step: 1.0 / 32.0,

@@ -1,12 +1,12 @@
 //! A plane of values: quantised, predicted, compressed and written as text.
 //!
-//! Each value becomes a code of 1 to 4 bytes. From it a prediction is subtracted (modulo the codes'
-//! range): the code of the pixel on its left (at the left border of the one above), the code that the
-//! reference has at the same pixel, or the latter and by how much the former differs from its own
-//! reference. What remains is small; its sign is folded in (0, −1, 1, −2 → 0, 1, 2, 3). Of a plane of
-//! one channel the lowest bytes of all pixels are written, then the next ones; of several channels, all
-//! bytes of a pixel, since colours repeat as a whole. These bytes are compressed (zlib, RFC 1950) and
-//! written in base64.
+//! Each value becomes a code of 1 to 4 bytes. A prediction is subtracted from it (modulo the codes'
+//! range). There are three: the code of the pixel on its left (at the left border, of the one above);
+//! the reference's code at the same pixel; or the reference's code plus the left pixel's difference
+//! from its own reference. What remains is small; its sign is folded in (0, −1, 1, −2 → 0, 1, 2, 3).
+//! For a plane of one channel the lowest bytes of all pixels are written, then the next ones; for
+//! several channels, all bytes of a pixel, since colours repeat as a whole. These bytes are compressed
+//! (zlib, RFC 1950) and written in base64.
 
 use std::io::Write;
 

@@ -103,8 +103,8 @@ impl Axis {
         })
     }
 
-    /// Labels of ticks that do not run into one another: where each stands, and its text. Decades go before
-    /// what is between them.
+    /// Labels of ticks that do not run into one another: where each stands, and its text. Decades have
+    /// priority over what is between them.
     pub fn apart(&self, places: &[f64], at: impl Fn(f64) -> f64) -> Vec<(f64, String)> {
         let between =
             |place: &f64| self.scale == Scale::Log && (place - place.round()).abs() > 1e-9;

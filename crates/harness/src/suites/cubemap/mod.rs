@@ -1,4 +1,4 @@
-//! `catoptric bench cubemap`: cubemap tracing, Číž 2017, chapter 5, and what the thesis owed: the
+//! `catoptric bench cubemap`: cubemap tracing, Číž 2017, chapter 5, and what the thesis lacks: the
 //! comparison with the truth for every cell of its table. `--full` measures the whole grid.
 
 mod claims;

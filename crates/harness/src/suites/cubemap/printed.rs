@@ -12,8 +12,8 @@ pub struct Cell {
     scene: &'static str,
     /// Microseconds a mirror pixel.
     pub micros: f64,
-    /// The place of the cell that it is held against: without flags in the same window and scene, where
-    /// the table has one.
+    /// The place of the cell that it is compared with: without flags in the same window and scene,
+    /// where the table has one.
     pub base: usize,
 }
 

@@ -9,7 +9,7 @@ use crate::suites::series::{Point, Series};
 use super::claims::{self, ALL, PUBLISHED, TREE};
 use super::data::search;
 
-/// A search that has settled: what is left is what interpolation misses.
+/// Steps after which a search has settled: the error that is left is that of interpolation.
 const STEPS: u32 = 25;
 
 fn with(refinement: &str) -> String {

@@ -7,7 +7,7 @@ use crate::suites::series::{Point, Series};
 
 use super::claims;
 
-/// Steps with which what is left of the error is the maps'.
+/// Steps after which the error that is left is that of the maps.
 const SETTLED: u32 = 40;
 /// Steps of the paper's search.
 const PAPER: u32 = 9;

@@ -1,7 +1,7 @@
 //! `catoptric bench exact`: what exact reflections cost, and which way to them a renderer should take. Three are
-//! as right as float32 is: beams, which need no hierarchy over the scene; rays through a hierarchy that is built
-//! once, refitted or built for each frame; and rays in hardware. All that a technique needs for a frame is counted:
-//! its own passes, and what it builds on the CPU before them. Beside them stands what is not exact.
+//! exact to float32: beams, which need no hierarchy over the scene; rays through a hierarchy that is built once,
+//! refitted or built for each frame; and rays in hardware. All that a technique needs for a frame is counted: its
+//! own passes, and what it builds on the CPU before them. Inexact techniques stand beside them.
 //!
 //! The first figure has the answers, on scenes of all kinds; those after it say how cost grows with triangles,
 //! mirror pixels and mirrors, what motion does to a refitted hierarchy, and where beams' time goes.

@@ -30,7 +30,7 @@ const HALF: &str = "half a pixel at the edges is what can be told.";
 const FASTER: &str = "below 1 it is faster; what the medians' intervals leave open is undecided.";
 const COUNTED: &str = "counted exactly.";
 
-/// What is alike shows as many right pixels: the first less the second.
+/// Techniques that are alike show equally many right pixels: the first share less the second.
 const fn alike(one: Pick, other: Pick) -> Rule {
     difference(one, other, RIGHT, Limit::Between(-0.01, 0.01), ROUNDING)
 }

@@ -23,7 +23,7 @@ pub(crate) const IDS_ATTRIBUTE: &str = "catoptric.ids";
 /// What the `exr` crate says of a file that ends too early.
 const MISSING_BYTES: &str = "reference to missing bytes";
 
-/// The largest id whose neighbours are all exact in a 32-bit float.
+/// The largest id up to which a 32-bit float holds every whole number.
 pub(crate) const MAX_ID: f32 = 16_777_216.0;
 
 pub(crate) const AXES: [&str; 3] = ["X", "Y", "Z"];

@@ -20,7 +20,7 @@ pub struct CompareOptions {
     pub may_be_unresolved: bool,
     /// T-junctions that the technique counted.
     pub t_junctions: Option<u64>,
-    /// For FLIP.
+    /// Pixels that a degree of the viewer's visual angle takes, for FLIP.
     pub pixels_per_degree: f32,
 }
 

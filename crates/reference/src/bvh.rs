@@ -74,7 +74,7 @@ impl TriangleBvh {
         }
     }
 
-    /// Half the diagonal of the bounding box of all triangles.
+    /// Half the diagonal of the bounding box of all triangles, world units.
     pub fn radius(&self) -> f64 {
         self.tree.radius
     }

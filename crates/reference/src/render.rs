@@ -57,7 +57,7 @@ impl RenderOptions<'_> {
 /// What one eye ray sees, in f64.
 #[derive(Clone, Copy, Debug)]
 pub struct PixelTrace {
-    /// Unit direction of the eye ray.
+    /// Unit direction of the eye ray, world space.
     pub direction: DVec3,
     /// The first surface along the eye ray.
     pub primary: Option<Hit>,
@@ -72,7 +72,7 @@ pub struct PixelTrace {
 pub struct Reflection {
     /// Never [`Status::NotMirror`] nor [`Status::Unresolved`].
     pub status: Status,
-    /// Unit direction of the first reflected ray; where `status` is `Back` or `Below` (at the
+    /// Unit direction of the first reflected ray, world space; where `status` is `Back` or `Below` (at the
     /// first mirror), zero.
     pub direction: DVec3,
     /// The surface met: the first, under [`Truth::Full`] the last; `None` for the background.

@@ -11,8 +11,8 @@
 //! starts `NUDGE` × the scene's extent off the triangle, on its reflecting side, and so moves
 //! away from it and, where the mesh is convex, from its neighbours; a mesh as near as `EQUAL`
 //! lies where it starts, as its other side does. A sphere, an ellipsoid and a
-//! plane are not met again by a ray that leaves them, so they are left out. A bowl is met again
-//! only beyond `BOWL_NUDGE` × its extent.
+//! plane are not met again by a ray that leaves them, so they are left out. A mirror that is
+//! not convex is met again only beyond `CONCAVE_NUDGE` × its extent.
 
 use catoptric_scene::Scene;
 use glam::{DVec3, Vec3};
@@ -31,9 +31,9 @@ const NUDGE: f64 = 1e-12;
 /// rounding steps of f32, in which coordinates are given.
 const EQUAL: f64 = 1.0 / 1_048_576.0;
 
-/// Share of a bowl's extent within which a ray leaving it does not meet it again: rounding moves
-/// the start along a ray that grazes the bowl far more than across it.
-const BOWL_NUDGE: f64 = 1e-9;
+/// Share of the extent of a mirror that is not convex within which a ray leaving it does not meet it again: rounding
+/// moves the start along a ray that grazes the mirror far more than across it.
+const CONCAVE_NUDGE: f64 = 1e-9;
 
 /// How far Mitsuba 3 moves the start of a ray off the surface it leaves, as a share of 1 + the
 /// largest coordinate.
@@ -66,7 +66,7 @@ pub struct Tracer {
 pub struct Hit {
     /// As in every id layer.
     pub id: u32,
-    /// Distance along the (unit) ray.
+    /// Distance along the (unit) ray, world units.
     pub t: f64,
     /// World-space point.
     pub position: DVec3,
@@ -273,7 +273,9 @@ impl Tracer {
                 continue;
             }
             let t_min = match leaving {
-                true => start.t_min.max(BOWL_NUDGE * reach(mirror.shape.bounds())),
+                true => start
+                    .t_min
+                    .max(CONCAVE_NUDGE * reach(mirror.shape.bounds())),
                 false => start.t_min,
             };
             let Some(hit) = mirror.shape.intersect(start.origin, dir, t_min) else {

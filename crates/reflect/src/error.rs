@@ -13,9 +13,9 @@ pub enum ReflectError {
     /// No image of this size.
     #[error("resolution {}x{}: the adapter takes 1 to {limit} pixels a side", size[0], size[1])]
     Size {
-        /// Width and height.
+        /// Width and height, pixels.
         size: [u32; 2],
-        /// Longest side.
+        /// Longest side, pixels.
         limit: u32,
     },
     /// An option that this adapter cannot serve.

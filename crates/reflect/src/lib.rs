@@ -9,7 +9,7 @@
 //! * `gpu/`: device, buffers, pipelines, shader linking, recorder, clock; knows nothing of mirrors;
 //! * `stage/`: what every technique stands on;
 //! * `technique.rs`: what a technique is to the rest;
-//! * `search/`, `refine/`, `image_order/`, `motion/`: a folder for each technique, with its CPU twin;
+//! * `search/`, `refine/`, `image_order/`, `motion/`: a folder for each technique, some with a CPU twin;
 //!   `object_order.rs` puts searches and refinements together;
 //! * `registry.rs`: the list of all techniques; `spec.rs`: the grammar of their names.
 

@@ -7,9 +7,9 @@ use glam::{DVec2, DVec3};
 pub struct Camera {
     /// Eye position, world space.
     pub eye: DVec3,
-    /// A point on the optical axis.
+    /// A point on the optical axis, world space.
     pub target: DVec3,
-    /// Roughly up; not parallel to the optical axis.
+    /// Roughly up, world space; not parallel to the optical axis.
     pub up: DVec3,
     /// Field of view.
     pub fov: Fov,

@@ -45,7 +45,7 @@ pub enum StartArg {
     Surface,
     /// Off the mirror, as far as Mitsuba moves them
     Mitsuba,
-    /// Once so, once so
+    /// Both: each picture is compared twice
     Both,
 }
 

@@ -65,10 +65,10 @@ pub struct Color {
     pub agree: f64,
 }
 
-/// Colours after one reflection; without one they agree on [`AGREE`]. From the surface, 3e-3 of a
-/// globe a third of a unit wide is an 8-bit step; 4 of 10 000 such pixels were further off in a bowl,
-/// and 23 of 1000 on a ball in the Sponza with its fine textures. With Mitsuba's offset 6 of 10 000
-/// were a quarter of that off there, none or one elsewhere.
+/// Colours after one reflection; without one they agree on [`AGREE`]. Where rays start
+/// on the surface, an 8-bit step (4e-3) was exceeded by 4 of 10 000 pixels in a bowl and by 23 of 1000 on a ball in the
+/// Sponza with its fine textures; with Mitsuba's offset a quarter of a step was exceeded by 6 of 10 000 there, by none
+/// or one elsewhere.
 pub fn color(start: RayStart) -> Color {
     match start {
         RayStart::Exact => Color {

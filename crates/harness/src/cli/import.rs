@@ -17,7 +17,7 @@ pub struct Args {
     /// Metals of this roughness or less are mirrors
     #[arg(long, value_name = "X", default_value_t = 0.15, value_parser = roughness)]
     pub roughness: f64,
-    /// What is called so, or made of what is called so, is a mirror; several are allowed
+    /// Name of an object or a material whose surfaces are mirrors; may be given several times
     #[arg(long, value_name = "NAME")]
     pub mirror: Vec<String>,
 }

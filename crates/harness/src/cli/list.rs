@@ -15,7 +15,7 @@ use crate::terminal::{cut, width, wrapped};
 /// What `list` is asked.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Args {
-    /// Of what
+    /// What to list
     #[arg(value_enum)]
     pub what: Listing,
     /// One technique by its name: what it is, and each of its options

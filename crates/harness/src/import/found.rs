@@ -29,13 +29,13 @@ pub struct Found {
 /// A place to look from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct View {
-    /// Where it stands.
+    /// Where it stands, world space.
     pub eye: DVec3,
-    /// A point on the optical axis.
+    /// A point on the optical axis, world space.
     pub target: DVec3,
-    /// Roughly up.
+    /// Roughly up, world space.
     pub up: DVec3,
-    /// Full angle.
+    /// Full angle, degrees.
     pub fov: Fov,
     /// Width and height in pixels, where they are said.
     pub resolution: Option<[u32; 2]>,

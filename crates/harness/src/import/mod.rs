@@ -125,7 +125,7 @@ fn choose(things: &mut [Thing], names: &[String]) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Most of what is left out in a message, before the last: surfaces come after their materials.
+/// Of what was left out, a message names the last one and at most so many before it.
 const MOST_LEFT_OUT: usize = 7;
 /// Most names in a message.
 const MOST_NAMES: usize = 40;

@@ -34,9 +34,9 @@ pub struct Record {
     /// By which truth the technique is judged.
     #[schemars(extend("enum" = ["first-bounce", "full"]))]
     pub truth: &'static str,
-    /// Whether there is anything to read below.
+    /// Whether the row holds measurements.
     pub status: Status,
-    /// Why not.
+    /// Why it holds none.
     pub reason: Option<String>,
     /// What rendered.
     pub adapter: Option<Adapter>,
@@ -89,7 +89,7 @@ pub struct Record {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {
-    /// It does.
+    /// It holds measurements.
     Ok,
     /// The technique does not claim to handle the scene, or the scene's model is missing.
     NotApplicable,

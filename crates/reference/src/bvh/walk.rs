@@ -30,11 +30,11 @@ pub(super) struct Tree {
 pub struct TriangleHit {
     /// Index into the triangles the hierarchy was built from.
     pub triangle: u32,
-    /// Distance along the (unit) ray.
+    /// Distance along the (unit) ray, world units.
     pub t: f64,
     /// Weights of the corners, summing to 1.
     pub barycentric: DVec3,
-    /// The triangle's corners.
+    /// The triangle's corners, world space.
     pub corners: [DVec3; 3],
 }
 

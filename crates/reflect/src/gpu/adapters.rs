@@ -18,7 +18,7 @@ pub struct AdapterInfo {
     pub timestamps: bool,
     /// Rays can be traced by the hardware.
     pub ray_queries: bool,
-    /// Widest or highest image.
+    /// Widest or highest image, pixels.
     pub max_image: u32,
     /// Largest buffer a shader can see, in bytes.
     pub max_storage_binding: u64,

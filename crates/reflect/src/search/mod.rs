@@ -153,7 +153,7 @@ impl Instrumentation {
 /// A search's shader, ready for both variants of a frame.
 struct Pipelines {
     plain: Kernel,
-    /// Tells what [`Context::account`] asks for.
+    /// Tells what [`Context::instrumentation`] asks for.
     telling: Kernel,
 }
 

@@ -14,13 +14,13 @@ use crate::pose::Pose;
 /// seen from the centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bowl {
-    /// Centre of the sphere.
+    /// Centre of the sphere, world space.
     pub center: DVec3,
-    /// Radius of the sphere.
+    /// Radius of the sphere, world units.
     pub radius: f64,
     /// Unit, from the sphere's centre to the middle of the cap.
     pub axis: DVec3,
-    /// Radians, in (0, π).
+    /// Angle at the sphere's centre from the axis to the rim: radians, in (0, π).
     pub half_angle: f64,
 }
 

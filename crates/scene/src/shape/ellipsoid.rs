@@ -14,9 +14,9 @@ use crate::pose::Pose;
 /// `|p / radii| = 1`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ellipsoid {
-    /// Centre.
+    /// Centre, world space.
     pub center: DVec3,
-    /// Half axes before the rotation, positive.
+    /// Half axes before the rotation, in world units, positive.
     pub radii: DVec3,
     /// World from ellipsoid axes.
     pub rotation: DMat3,

@@ -134,7 +134,7 @@ pub trait MirrorShape {
 /// Where a ray meets an analytic mirror.
 #[derive(Clone, Copy, Debug)]
 pub struct SurfaceHit {
-    /// Distance along the (unit) ray.
+    /// Distance along the (unit) ray, world units.
     pub t: f64,
     /// World-space point.
     pub position: DVec3,

@@ -12,13 +12,13 @@ use crate::pose::Pose;
 /// A rectangle that reflects on the side its normal points to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane {
-    /// Centre of the rectangle.
+    /// Centre of the rectangle, world space.
     pub center: DVec3,
     /// Unit normal of the reflecting side.
     pub normal: DVec3,
     /// Unit, in the plane: the direction of `size.y`.
     pub up: DVec3,
-    /// Full width (along `up × normal`) and height (along `up`).
+    /// Full width (along `up × normal`) and height (along `up`), world units.
     pub size: DVec2,
 }
 

@@ -15,15 +15,15 @@ use crate::pose::Pose;
 /// its normals point to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Saddle {
-    /// Middle of the patch.
+    /// Middle of the patch, world space.
     pub center: DVec3,
     /// Unit normal in the middle, on the reflecting side.
     pub normal: DVec3,
     /// Unit, perpendicular to `normal`.
     pub up: DVec3,
-    /// Full extent along `right` and `up`.
+    /// Full extent along `right` and `up`, world units.
     pub size: DVec2,
-    /// Curvatures in the middle along `right` and `up`, of opposite signs; positive ones bend
+    /// Curvatures (1 / world unit) in the middle along `right` and `up`, of opposite signs; positive ones bend
     /// towards the reflecting side.
     pub curvature: DVec2,
 }

@@ -12,9 +12,9 @@ use crate::pose::Pose;
 /// A sphere that reflects on its outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sphere {
-    /// Centre.
+    /// Centre, world space.
     pub center: DVec3,
-    /// Radius, positive.
+    /// Radius in world units, positive.
     pub radius: f64,
 }
 

@@ -20,13 +20,13 @@ use crate::pose::Pose;
 /// A torus that reflects on its outside: the points `minor` away from a circle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Torus {
-    /// Centre of the circle.
+    /// Centre of the circle, world space.
     pub center: DVec3,
     /// Unit, perpendicular to the circle.
     pub axis: DVec3,
-    /// Radius of the circle.
+    /// Radius of the circle, world units.
     pub major: f64,
-    /// Radius of the tube, positive and smaller than `major`.
+    /// Radius of the tube in world units, positive and smaller than `major`.
     pub minor: f64,
 }
 

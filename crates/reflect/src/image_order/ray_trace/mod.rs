@@ -119,7 +119,7 @@ enum Extra {
     Nothing,
     /// Colours of a technique before, −1 in w where it has no answer; all others are left alone.
     LeftOpen(wgpu::TextureView),
-    /// Where each ray meets which triangle, as `ray_trace.wesl` has it.
+    /// Where each ray meets which triangle, as `ray_trace/trace.wesl` has it.
     Hits(wgpu::TextureView),
 }
 

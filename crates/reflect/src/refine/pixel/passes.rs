@@ -433,7 +433,10 @@ impl Passes {
                 found: found[place],
             }
         };
-        let pieces = pieces.into_iter();
+        let pieces = pieces.into_iter().map(|piece| Piece {
+            level: piece.level & Piece::LEVEL,
+            ..piece
+        });
         let drawn = pieces.map(|piece| (piece, piece.points.to_array().map(corner)));
         drawn.collect()
     }

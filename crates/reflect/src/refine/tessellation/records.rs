@@ -54,6 +54,8 @@ pub(crate) struct Piece {
 impl Piece {
     /// Marks a point as one of the refinement's.
     pub const NEW: u32 = 1 << 31;
+    /// The bits of `level` that say how often the source was split; those above are for drawing.
+    pub const LEVEL: u32 = 0xff;
 }
 
 #[cfg(test)]

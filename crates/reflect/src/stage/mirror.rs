@@ -3,7 +3,7 @@
 use catoptric_scene::MirrorShape;
 use catoptric_scene::shape::ShaderInput;
 use encase::ShaderType;
-use glam::{DMat3, DVec3, Vec3};
+use glam::{DMat3, DVec3, Vec3, Vec4};
 
 use crate::gpu::shaders;
 
@@ -24,6 +24,7 @@ pub(crate) struct MirrorUniform {
     pub axis_z: Vec3,
     pub more_z: f32,
     pub sizes: Vec3,
+    pub beyond: Vec4,
 }
 
 impl MirrorUniform {
@@ -43,6 +44,10 @@ impl MirrorUniform {
             axes: DMat3::IDENTITY,
             sizes: DVec3::ONE,
             more: DVec3::ZERO,
+            beyond: None,
+        });
+        let beyond = input.beyond.map_or(Vec4::ZERO, |(sizes, more)| {
+            sizes.as_vec3().extend(more as f32)
         });
         let (axes, more) = (input.axes, input.more.as_vec3());
         Self {
@@ -57,6 +62,7 @@ impl MirrorUniform {
             axis_z: axes.z_axis.as_vec3(),
             more_z: more.z,
             sizes: input.sizes.as_vec3(),
+            beyond,
         }
     }
 }
@@ -80,7 +86,8 @@ mod tests {
                 more_y,
                 axis_z,
                 more_z,
-                sizes
+                sizes,
+                beyond
             },
             "stage/gbuffer",
             &[],

@@ -1,6 +1,8 @@
 //! A spherical cap that reflects on its inside: `shape = "bowl"` with `center`, `radius`, `axis`
 //! and `half_angle_deg`.
 
+use std::f64::consts::PI;
+
 use glam::{DMat3, DVec3};
 
 use super::mirror_shape::{Facing, MirrorShape, ShaderInput, SurfaceHit};
@@ -9,6 +11,9 @@ use crate::SceneError;
 use crate::document::{Table, short};
 use crate::mesh::Mesh;
 use crate::pose::Pose;
+
+/// How far its sphere is looked at beyond the rim, radians.
+const BEYOND: f64 = 0.3;
 
 /// A spherical cap whose inside reflects: the points of a sphere within `half_angle` of `axis`,
 /// seen from the centre.
@@ -149,6 +154,10 @@ impl MirrorShape for Bowl {
             axes: DMat3::from_cols(x, self.axis.cross(x), self.axis),
             sizes: DVec3::splat(self.radius),
             more: DVec3::X * self.half_angle.cos(),
+            beyond: Some((
+                DVec3::splat(self.radius),
+                (self.half_angle + BEYOND).min(PI).cos(),
+            )),
         })
     }
 }

@@ -133,6 +133,7 @@ impl MirrorShape for Ellipsoid {
             axes: self.rotation,
             sizes: self.radii,
             more: DVec3::ZERO,
+            beyond: None,
         })
     }
 

@@ -162,6 +162,8 @@ pub struct ShaderInput {
     pub sizes: DVec3,
     /// Further numbers, of which each shape says what they are; 0 where it has none.
     pub more: DVec3,
+    /// Of an open surface, `sizes` and the first of `more` for a larger piece, which goes on beyond the rim.
+    pub beyond: Option<(DVec3, f64)>,
 }
 
 /// A surface that other renderers know, in world space.

@@ -9,6 +9,9 @@ use crate::document::Table;
 use crate::mesh::Mesh;
 use crate::pose::Pose;
 
+/// So many times as wide and high, the surface is looked at beyond its rim.
+const BEYOND: f64 = 1.5;
+
 /// A rectangle that reflects on the side its normal points to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane {
@@ -124,6 +127,7 @@ impl MirrorShape for Plane {
             axes: DMat3::from_cols(self.right(), self.up, self.normal),
             sizes: (self.size / 2.0).extend(1.0),
             more: DVec3::ZERO,
+            beyond: Some(((BEYOND * self.size / 2.0).extend(1.0), 0.0)),
         })
     }
 

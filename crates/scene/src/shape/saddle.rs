@@ -10,6 +10,9 @@ use crate::document::Table;
 use crate::mesh::Mesh;
 use crate::pose::Pose;
 
+/// So many times as wide and high, the surface is looked at beyond its rim.
+const BEYOND: f64 = 1.5;
+
 /// The points `center + x · right + y · up + z · normal` over a rectangle, with
 /// `right = up × normal` and `z = (curvature.x · x² + curvature.y · y²)/2`, reflecting on the side
 /// its normals point to.
@@ -181,6 +184,7 @@ impl MirrorShape for Saddle {
             axes: self.frame(),
             sizes: (self.size / 2.0).extend(1.0),
             more: self.curvature.extend(0.0),
+            beyond: Some(((BEYOND * self.size / 2.0).extend(1.0), self.curvature.x)),
         })
     }
 }

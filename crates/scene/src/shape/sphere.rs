@@ -98,6 +98,7 @@ impl MirrorShape for Sphere {
             axes: DMat3::IDENTITY,
             sizes: DVec3::splat(self.radius),
             more: DVec3::ZERO,
+            beyond: None,
         })
     }
 

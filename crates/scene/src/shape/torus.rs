@@ -167,6 +167,7 @@ impl MirrorShape for Torus {
             axes: DMat3::from_cols(x, self.axis.cross(x), self.axis),
             sizes: DVec3::new(self.major, self.minor, 1.0),
             more: DVec3::ZERO,
+            beyond: None,
         })
     }
 

@@ -164,7 +164,7 @@ impl InBoxes {
             .map(|mirror| mirror.shape.is_convex())
             .collect();
         let all_convex = convex.iter().all(|convex| *convex);
-        let nodes = Nodes::new(gpu, stage, options.slices.room(all_convex))?;
+        let nodes = Nodes::new(gpu, stage, options.slices.room(all_convex), context.extends)?;
         let only_first = options.sheets == Sheets::First;
         let slots = [
             Slot::Uniform,

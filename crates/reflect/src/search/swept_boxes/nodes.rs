@@ -66,11 +66,16 @@ pub(super) fn cells(size: [u32; 2]) -> [u32; 2] {
 }
 
 impl Nodes {
-    /// With room for so many slices.
+    /// With room for so many slices; it `extends` to where the mirror's surface is not seen.
     ///
     /// # Errors
     /// What the device cannot hold.
-    pub(super) fn new(gpu: &Gpu, stage: &Stage, room: u32) -> Result<Self, ReflectError> {
+    pub(super) fn new(
+        gpu: &Gpu,
+        stage: &Stage,
+        room: u32,
+        extends: bool,
+    ) -> Result<Self, ReflectError> {
         let size = stage.world.size;
         let texels = BASE + 2 * room;
         let block = [texels.min(ROW), texels.div_ceil(ROW)];
@@ -107,7 +112,11 @@ impl Nodes {
             };
             (0..levels).map(of_level).collect()
         };
-        let rays_module = module(gpu, "swept_boxes/rays", &[])?;
+        let rays_module = module(
+            gpu,
+            "swept_boxes/rays",
+            if extends { &["extend"] } else { &[] },
+        )?;
         let build = module(gpu, "swept_boxes/build", &[])?;
         let view_of = Some(&stage.world.view_layout);
         let mirror = Some(&stage.gbuffer.mirror_layout);

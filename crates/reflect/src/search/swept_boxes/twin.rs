@@ -316,12 +316,12 @@ impl Twin {
                 if corners[nearest].kind != Kind::Seen {
                     continue;
                 }
-                let mut place = Some((cell.as_vec2() + inwards, met.t));
+                let mut place = Some((cell.as_vec2() + inwards, met.t, met.focal));
                 if met.is_steep {
                     place = self.polished(cell.as_vec2() + inwards, &met, vertex);
                 }
-                if let Some((at, t)) = place {
-                    let sheet = if self.first { 0 } else { met.focal };
+                if let Some((at, t, focal)) = place {
+                    let sheet = if self.first { 0 } else { focal };
                     keep(kept, sheet, Kept { at: at - 0.5, t });
                 }
             }
@@ -331,7 +331,7 @@ impl Twin {
 
 /// `swept_boxes/polish.wesl`.
 impl Twin {
-    fn polished(&self, begin: Vec2, met: &Met, vertex: Vec3) -> Option<(Vec2, f32)> {
+    fn polished(&self, begin: Vec2, met: &Met, vertex: Vec3) -> Option<(Vec2, f32, usize)> {
         let along = met.direction;
         let axis = if along.x.abs() > 0.6 * along.length() {
             Vec3::Y
@@ -348,7 +348,7 @@ impl Twin {
             let Some([point, direction, point_x, direction_x, point_y, direction_y]) =
                 self.patch(at)
             else {
-                return Some((begin, met.t));
+                return Some((begin, met.t, met.focal));
             };
             let t = (vertex - point).dot(direction) / direction.length_squared();
             let across = |way: Vec3| Vec2::new(way.dot(u), way.dot(v));
@@ -363,11 +363,10 @@ impl Twin {
         if last >= 0.01 || at.distance(begin) > 0.7 {
             return None;
         }
-        let [point, direction, ..] = self.patch(at)?;
-        Some((
-            at,
-            (vertex - point).dot(direction) / direction.length_squared(),
-        ))
+        let [point, direction, point_x, direction_x, point_y, direction_y] = self.patch(at)?;
+        let t = (vertex - point).dot(direction) / direction.length_squared();
+        let turns = [direction_x, direction_y];
+        Some((at, t, focal_count([point_x, point_y], turns, direction, t)))
     }
 
     /// Point, direction and their derivatives, on the cubics through four rays each way.

@@ -276,6 +276,52 @@ fn practically_no_solution_is_missed_and_none_is_made_up() {
 }
 
 #[test]
+fn beyond_the_rim_vertices_are_answered_as_unreflected() {
+    let Some(gpu) = gpu_or_skip() else { return };
+    for name in ["saddle", "prototype-bowl"] {
+        let mut larger = scene(name);
+        match &mut larger.mirrors[0].shape {
+            Shape::Saddle(saddle) => saddle.size *= 1.2,
+            Shape::Bowl(bowl) => bowl.half_angle += 0.1,
+            other => unreachable!("{other:?}"),
+        }
+        let own = scene(name);
+        let [exact, beyond] = [&own, &larger].map(|scene| Exact::new(scene, SIZE));
+        let is_off = |at: DVec2| {
+            let around = [DVec2::X, DVec2::Y, -DVec2::X, -DVec2::Y];
+            around.iter().all(|way| exact.ray(at + 2.0 * way).is_none())
+        };
+        let known = beyond.known(4000).into_iter();
+        let known: Vec<_> = known.filter(|(_, at)| is_off(*at)).collect();
+        assert!(known.len() > 200, "{name}: {}", known.len());
+        let scene = with_points(name, known.iter().map(|(vertex, _)| *vertex));
+        let states = |technique: &str| -> Vec<u32> {
+            let searched = Searched::new(&gpu, &scene, technique, SIZE);
+            let batches = searched.batches.iter();
+            let found: Vec<_> = batches
+                .map(|batch| batch.read_found(&gpu, known.len() as u32))
+                .collect();
+            let near = known.iter().enumerate().flat_map(|(index, (_, at))| {
+                let answers = found.iter().map(move |list| list[index]);
+                answers.filter(|answer| {
+                    answer.state != Found::FAILED && answer.at.as_dvec2().distance(*at) <= 0.75
+                })
+            });
+            near.map(|answer| answer.state).collect()
+        };
+        assert!(states("swept-boxes").is_empty(), "{name}");
+        let continued = states("swept-boxes(hidden=extend)");
+        let right = continued
+            .iter()
+            .filter(|state| **state == Found::UNREFLECTED);
+        let (right, all) = (right.count(), known.len());
+        println!("{name}: {right} of {all}");
+        assert!(right * 100 >= all * 98, "{name}: {right} of {all}");
+        assert_eq!(right, continued.len(), "{name}");
+    }
+}
+
+#[test]
 fn a_warm_search_tests_half_of_the_nodes() {
     let Some(gpu) = gpu_or_skip() else { return };
     for name in ["prototype-sphere", "prototype-ellipsoid"] {

@@ -65,14 +65,22 @@ impl<'r> Results<'r> {
         }
     }
 
-    /// Where among all rows the one of a point stands; `None` where it is not measured (yet).
+    /// Where among all rows the one of a point stands; `None` where it is not measured (yet). Rows of several
+    /// suites may be of the same point: the first one counts, but for a point that asks for frames the first one
+    /// that followed a motion.
     pub fn index(&self, point: &Point) -> Option<usize> {
         let named = point.canonical();
-        self.rows.iter().position(|row| {
+        let is_of_point = |row: &Row| {
             let size = point.resolution.is_none_or(|size| size == row.resolution);
             size && point.is_on(&row.scene)
                 && (row.technique == point.technique || named.as_ref() == Some(&row.technique))
-        })
+        };
+        let followed = |row: &Row| lookup(&row.value, "temporal").is_some_and(|it| !it.is_null());
+        let rows = || self.rows.iter();
+        let moving = point
+            .frames
+            .and_then(|_| rows().position(|row| is_of_point(row) && followed(row)));
+        moving.or_else(|| rows().position(is_of_point))
     }
 
     /// The size of the picture of a point's row.
@@ -151,5 +159,39 @@ impl Numbers for Results<'_> {
                 format!("{} {}", place_name(self.axis, x), self.axis.label)
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::tests::measured;
+
+    #[test]
+    fn a_point_that_asks_for_frames_reads_a_row_that_followed_a_motion() {
+        let row = |temporal: Value| {
+            let mut row = serde_json::to_value(measured("bowl", "linear")).unwrap();
+            row["temporal"] = temporal;
+            Row::read(row).unwrap()
+        };
+        let rows = [
+            row(Value::Null),
+            row(serde_json::json!({ "jumps": 0.25 })),
+            row(Value::Null),
+        ];
+        let axis = Axis::linear("x");
+        let results = Results {
+            series: &[],
+            axis: &axis,
+            rows: &rows,
+        };
+        let still = Point::new(0.0, "bowl", "linear");
+        let moving = Point {
+            frames: Some(10),
+            ..still.clone()
+        };
+        assert_eq!(results.index(&still), Some(0));
+        assert_eq!(results.index(&moving), Some(1));
+        assert_eq!(results.value(&moving, "temporal.jumps"), Some(0.25));
     }
 }

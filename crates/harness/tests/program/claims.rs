@@ -4,7 +4,7 @@ use crate::support::{catoptric, code, json, refused, stdout};
 
 const RECORD: &str = concat!(
     env!("CARGO_MANIFEST_DIR"),
-    "/../../results/2026-11-30-llvmpipe/record.json"
+    "/../../results/2026-12-01-llvmpipe/record.json"
 );
 
 #[test]

@@ -22,7 +22,7 @@ fn at(folder: &tempfile::TempDir, name: &str) -> String {
 
 const RECORD: &str = concat!(
     env!("CARGO_MANIFEST_DIR"),
-    "/../../results/2026-11-30-llvmpipe/record.json"
+    "/../../results/2026-12-01-llvmpipe/record.json"
 );
 
 #[test]

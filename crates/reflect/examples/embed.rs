@@ -1,7 +1,7 @@
 //! A small renderer of its own that shows exact reflections by [`catoptric_reflect::embed`]: a mirror ball over a
 //! floor with two coloured pyramids, drawn into a texture without a window.
 //!
-//! `cargo run --release --workspace --example embed -- ball.ppm` writes the picture. What an application does already
+//! `cargo run --release --example embed -- ball.ppm` writes the picture. What an application does already
 //! is in [`Renderer`]; what beams add is marked with "beams:". Copied into a project of its own, this file needs
 //! `catoptric-reflect`, which hands on its `wgpu`, `bytemuck` and `pollster`.
 

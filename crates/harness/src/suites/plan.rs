@@ -28,20 +28,22 @@ pub fn wanted(figures: &[Figure], timing: Budget) -> Vec<Wanted> {
         (0..longest.unwrap_or(0)).flat_map(rank)
     });
     for point in ranked {
+        // Figures spell options in any order, and name defaults or not.
+        let technique = (point.canonical()).unwrap_or_else(|| point.technique.clone());
         let job = jobs
             .iter_mut()
             .find(|job| job.scene == point.scene && job.resolution == point.resolution);
         match job {
             Some(job) => {
                 job.frames = job.frames.max(point.frames);
-                if !job.techniques.contains(&point.technique) {
-                    job.techniques.push(point.technique.clone());
+                if !job.techniques.contains(&technique) {
+                    job.techniques.push(technique);
                 }
             }
             None => jobs.push(Wanted {
                 scene: point.scene.clone(),
                 resolution: point.resolution,
-                techniques: vec![point.technique.clone()],
+                techniques: vec![technique],
                 timing: Duration::ZERO,
                 frames: point.frames,
             }),
@@ -107,6 +109,17 @@ mod tests {
         assert_eq!(names, ["bowl", "planar", "bowl"]);
         assert_eq!(jobs[0].techniques, ["linear"]);
         assert_eq!(jobs[0].timing, Duration::from_secs(10));
+    }
+
+    #[test]
+    fn one_technique_spelled_in_two_ways_is_measured_once() {
+        let point = |x: f64, technique: &str| Point::new(x, "bowl", technique);
+        let spelled = figure(vec![
+            point(0.0, "cubemap-trace(accept=any)"),
+            point(1.0, "cubemap-trace(step=0.001,accept=any)"),
+        ]);
+        let jobs = wanted(&[spelled], Budget::Whole(1.0));
+        assert_eq!(jobs[0].techniques, ["cubemap-trace(accept=any)"]);
     }
 
     #[test]

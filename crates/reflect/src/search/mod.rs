@@ -123,7 +123,8 @@ pub(crate) trait Search {
 pub(crate) struct Context<'a> {
     pub gpu: &'a Gpu,
     pub stage: &'a Stage,
-    /// Vertices behind the tangent plane are continued (`hidden=extend`).
+    /// Vertices that the mirror does not reflect are continued (`hidden=extend`): those behind the tangent plane, and for
+    /// some searches those that are reflected beyond the rim.
     pub extends: bool,
     /// Of [`Points::group`].
     pub points_layout: &'a wgpu::BindGroupLayout,
